@@ -1,0 +1,104 @@
+// Reading and writing scenes: `.toml`, and `.obj`, `.gltf`, `.glb` opened as they are.
+//
+// All errors of a file come in one go, each `FILE:LINE:COLUMN: what is wrong; what is allowed` (line and column 1-based; where a
+// library gives no place, `FILE: ...`). Unknown keys are errors. Warnings say what was repaired or left out (a degenerate
+// triangle, a missing texture) and never change the light silently.
+//
+// The scene file is TOML. Paths are relative to it. Lengths are in its `units` and axes; numbers may be integers or decimals.
+//
+//     name  = "Two walls"          # default: the file's name
+//     units = "millimetre"         # required: metre centimetre millimetre foot inch
+//     up    = "y"                  # y (default) or z; right-handed either way
+//
+//     [[geometry]]                 # any number; all nodes, transforms applied
+//     file  = "office.glb"         # required: .obj .gltf .glb
+//     units = "metre"              # .obj only, default the scene's; glTF is metre and y up by its own standard
+//     up    = "z"                  # .obj only, default the scene's
+//     imported_emission = true     # default; false: the file's own emissive materials make no luminaires
+//
+//     [[polygon]]                  # any number; polygons of one name are one object and must have one material
+//     name     = "left wall"       # required
+//     material = "red paint"       # required; of a [[material]] below, or of a geometry file
+//     vertices = [[0, 0, 0], [0, 2500, 0], [0, 2500, 3000], [0, 0, 3000]] # >= 3, counter-clockwise seen from the front; convex or concave
+//     uv       = [[0, 1], [0, 0], [1, 0], [1, 1]]                         # default none; one a vertex; (0,0) is the picture's top left; repeats
+//
+//     [[object]]                   # gives an object of a geometry file another material
+//     name     = "desk.003"
+//     material = "red paint"
+//
+//     [[material]]                 # one with the name of an imported material changes the keys given here and keeps the others
+//     name        = "red paint"    # required, unique
+//     reflectance = 0.5            # 0..1; or [r, g, b] each 0..1 linear sRGB; or { file = "paints.csv", column = "red" } (column: default first)
+//     two_sided   = false          # default; false: the back is black and opaque
+//
+//     [[material]]
+//     name    = "picture"
+//     texture = "pictures/sea.png" # its mean is the reflectance, where no `reflectance` is given; else the picture is scaled to that mean.
+//                                  # "office.glb*0" is the first picture inside that geometry file; "none" takes an imported texture away
+//
+//     [[luminaire]]
+//     name     = "lamp"            # required, unique
+//     objects  = ["left wall"]     # required: names of polygons or imported objects; each is lit by one luminaire at most;
+//                                  # takes the place of what a geometry file says of their emission
+//     spectrum = "flat"            # default; or [r, g, b] >= 0; or { file = "lamp.csv", column = "" }; or { blackbody = 2700 } (1000..25000 K)
+//     power    = { lumen = 3000 }  # required, one of: lumen, watt (of the whole luminaire), exitance (W/m2), radiance (W/m2/sr);
+//                                  # with [r, g, b] exitance and radiance multiply it channel by channel
+//     dimmer   = 1.0               # default; >= 0
+//     side     = "front"           # default; front back both
+//
+//     [camera]                     # default: looks at the whole scene
+//     position = [278, 273, -800]  # required
+//     target   = [278, 273, 0]     # required
+//     up       = [0, 1, 0]         # default: the up axis
+//     vertical_fov_degrees = 39.3  # default 50; 1..170
+//     mirrored = true              # default false; true: +x of the picture is drawn to the left
+//
+//     [display]                    # all optional; core/display/display.h
+//     max_display = 100            # cd/m2 shown as full white, > 0
+//     auto   = true                # choose max_display when the scene is opened
+//     locked = true                # an edit never rescales the picture unasked
+//     clip   = "clamp"             # clamp keep_chromaticity desaturate scale_all
+//     curve  = "srgb"              # srgb gamma
+//     gamma  = 2.2                 # 0.1..10
+//
+//     [solve]                      # all optional
+//     solver       = "gathering"   # gathering shooting
+//     wavelengths  = "uniform:31"  # uniform:4 .. uniform:31, rgb
+//     target_error = 0.02          # relative, > 0, <= 1
+//     element_size = 0             # longest coarse element edge, in `units`; 0: chosen from the scene's area
+//     max_rays     = 512           # gather rays a receiver at most, 1..1048576
+//     seed         = 1             # 0..4294967295
+//
+// An .obj opened as it is counts in metres, Y up.
+#pragma once
+
+#include <expected>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/scene/scene.h"
+
+namespace lueur {
+
+struct LoadedScene {
+    Scene scene;
+    std::vector<std::string> warnings;
+};
+
+std::expected<LoadedScene, std::vector<std::string>> load_scene(const std::filesystem::path& file);
+
+// As a .toml; paths inside are written relative to the new file's folder. Writes beside and renames. Saving what was just loaded from a
+// file that save_scene wrote gives the same bytes.
+std::expected<void, std::string> save_scene(const Scene& scene, const std::filesystem::path& file);
+std::string scene_to_toml(const Scene& scene, const std::filesystem::path& folder);
+
+// A texture for a material: reads, and says what is wrong in one line. set_texture also sets the mean reflectance over the texels that the
+// material's triangles use.
+std::expected<Texture, std::string> load_texture(const Scene& scene, const std::filesystem::path& file);
+void set_texture(Scene& scene, MaterialIndex material, Texture texture);
+
+// What is wrong with values a panel or a command may have changed: reflectance 0..1, powers, camera, display. Empty when fine.
+std::vector<std::string> check(const Scene& scene);
+
+} // namespace lueur

@@ -1,0 +1,169 @@
+#include "core/solve/gather_system.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+
+namespace lueur {
+
+namespace {
+
+using Sums = std::array<double, max_channels>;
+constexpr std::uint32_t grain = 256;
+
+template <int Stride>
+void apply_receiver(const std::vector<GatherPass>& passes, const ChannelField& field, std::uint32_t i, float* out) {
+    float sum[Stride] = {};
+    for (const GatherPass& pass : passes) {
+        const std::uint32_t* ends = pass.ends.data() + std::size_t(i) * rays_per_pass;
+        for (int k = 0; k < rays_per_pass; ++k) {
+            const float* row = field.values.data() + std::size_t(ends[k]) * Stride;
+            for (int c = 0; c < Stride; ++c) sum[c] += row[c];
+        }
+    }
+    const float share = 1.0f / (static_cast<float>(passes.size()) * rays_per_pass);
+    for (int c = 0; c < Stride; ++c) out[c] = sum[c] * share;
+}
+
+// sum_i weight_i f(i, c) for all channels; the split into blocks is fixed so that the sum does not depend on the threads.
+template <typename F>
+Sums weighted_sums(std::uint32_t n, int channels, const std::vector<float>& weight, const F& f) {
+    return tbb::parallel_deterministic_reduce(
+        tbb::blocked_range<std::uint32_t>(0, n, 4 * grain), Sums{},
+        [&](const tbb::blocked_range<std::uint32_t>& range, Sums sums) {
+            for (std::uint32_t i = range.begin(); i < range.end(); ++i)
+                for (int c = 0; c < channels; ++c) sums[c] += double(weight[i]) * f(i, c);
+            return sums;
+        },
+        [](Sums a, const Sums& b) {
+            for (int c = 0; c < max_channels; ++c) a[c] += b[c];
+            return a;
+        });
+}
+
+template <typename F>
+void for_each_vertex(std::uint32_t n, const F& f) {
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, n, grain), [&](const tbb::blocked_range<std::uint32_t>& range) {
+        for (std::uint32_t i = range.begin(); i < range.end(); ++i) f(i);
+    });
+}
+
+} // namespace
+
+bool apply_rows(const std::vector<GatherPass>& passes, const ChannelField& field, ChannelField& out,
+                const std::atomic<bool>& cancel) {
+    if (passes.empty()) {
+        std::fill(out.values.begin(), out.values.end(), 0.0f);
+        return true;
+    }
+    for_each_vertex(field.count - 1, [&](std::uint32_t i) {
+        if (cancel.load(std::memory_order_relaxed)) return;
+        switch (field.stride) {
+        case 8: apply_receiver<8>(passes, field, i, out[i]); break;
+        case 16: apply_receiver<16>(passes, field, i, out[i]); break;
+        case 24: apply_receiver<24>(passes, field, i, out[i]); break;
+        default: apply_receiver<32>(passes, field, i, out[i]); break;
+        }
+    });
+    return !cancel.load(std::memory_order_relaxed);
+}
+
+GatherSystem::GatherSystem(std::uint32_t vertices, int channels, std::vector<float> weight)
+    : n_(vertices), channels_(channels), weight_(std::move(weight)), rho_(vertices, channels), b_(vertices, channels),
+      x_(vertices + 1, channels), h_(vertices, channels), r_(vertices, channels) {}
+
+void GatherSystem::set_sources(const ChannelField& rho, const ChannelField& direct) {
+    rho_ = rho;
+    for_each_vertex(n_, [&](std::uint32_t i) {
+        for (int c = 0; c < channels_; ++c) b_[i][c] = rho_[i][c] * direct[i][c];
+    });
+    // The guess alpha x with the smallest |b - alpha A x|: one lamp dimmed or recoloured is then solved at once.
+    const auto ax = [&](std::uint32_t i, int c) { return double(x_[i][c]) - double(rho_[i][c]) * h_[i][c]; };
+    b_norm2_ = weighted_sums(n_, channels_, weight_, [&](std::uint32_t i, int c) { return double(b_[i][c]) * b_[i][c]; });
+    const Sums bax = weighted_sums(n_, channels_, weight_, [&](std::uint32_t i, int c) { return b_[i][c] * ax(i, c); });
+    const Sums axax = weighted_sums(n_, channels_, weight_, [&](std::uint32_t i, int c) { return ax(i, c) * ax(i, c); });
+    std::array<float, max_channels> alpha{};
+    for (int c = 0; c < channels_; ++c) {
+        const double a = axax[c] > 0 ? bax[c] / axax[c] : 0;
+        alpha[c] = static_cast<float>(std::isfinite(a) && a > 0 ? a : 0);
+    }
+    for_each_vertex(n_, [&](std::uint32_t i) {
+        for (int c = 0; c < channels_; ++c) x_[i][c] *= alpha[c], h_[i][c] *= alpha[c];
+    });
+    refresh_residual();
+}
+
+void GatherSystem::rows_changed(const std::vector<GatherPass>& passes, const std::atomic<bool>& cancel) {
+    if (!apply_rows(passes, x_, h_, cancel)) { // start again from black rather than with half a product
+        clear();
+        return;
+    }
+    refresh_residual();
+}
+
+void GatherSystem::clear() {
+    std::fill(x_.values.begin(), x_.values.end(), 0.0f);
+    std::fill(h_.values.begin(), h_.values.end(), 0.0f);
+    refresh_residual();
+}
+
+void GatherSystem::refresh_residual() {
+    directions_.clear();
+    diverged_ = false;
+    for_each_vertex(n_, [&](std::uint32_t i) {
+        for (int c = 0; c < channels_; ++c) r_[i][c] = b_[i][c] - x_[i][c] + rho_[i][c] * h_[i][c];
+    });
+    r_norm2_ = weighted_sums(n_, channels_, weight_, [&](std::uint32_t i, int c) { return double(r_[i][c]) * r_[i][c]; });
+}
+
+double GatherSystem::relative_residual() const {
+    double worst = 0;
+    for (int c = 0; c < channels_; ++c)
+        if (b_norm2_[c] > 0) worst = std::max(worst, std::sqrt(r_norm2_[c] / b_norm2_[c]));
+    return worst;
+}
+
+bool GatherSystem::sweep(const std::vector<GatherPass>& passes, const std::atomic<bool>& cancel) {
+    Direction next{ChannelField(n_ + 1, channels_), ChannelField(n_, channels_), {}};
+    std::copy(r_.values.begin(), r_.values.end(), next.p.values.begin());
+    if (!apply_rows(passes, next.p, next.wp, cancel)) return false;
+
+    const auto times_a = [&](const Direction& d, std::uint32_t i, int c) { return d.p[i][c] - rho_[i][c] * d.wp[i][c]; };
+    for (const Direction& old : directions_) { // make A p orthogonal to the kept ones
+        const Sums product = weighted_sums(
+            n_, channels_, weight_, [&](std::uint32_t i, int c) { return double(times_a(next, i, c)) * times_a(old, i, c); });
+        std::array<float, max_channels> beta{};
+        for (int c = 0; c < channels_; ++c) beta[c] = old.norm2[c] > 0 ? static_cast<float>(product[c] / old.norm2[c]) : 0.0f;
+        for_each_vertex(n_, [&](std::uint32_t i) {
+            for (int c = 0; c < channels_; ++c) {
+                next.p[i][c] -= beta[c] * old.p[i][c];
+                next.wp[i][c] -= beta[c] * old.wp[i][c];
+            }
+        });
+    }
+    next.norm2 = weighted_sums(n_, channels_, weight_, [&](std::uint32_t i, int c) {
+        const double a = times_a(next, i, c);
+        return a * a;
+    });
+    const Sums product = weighted_sums(n_, channels_, weight_,
+                                       [&](std::uint32_t i, int c) { return double(r_[i][c]) * times_a(next, i, c); });
+    std::array<float, max_channels> alpha{};
+    for (int c = 0; c < channels_; ++c) alpha[c] = next.norm2[c] > 0 ? static_cast<float>(product[c] / next.norm2[c]) : 0.0f;
+    for_each_vertex(n_, [&](std::uint32_t i) {
+        for (int c = 0; c < channels_; ++c) {
+            x_[i][c] += alpha[c] * next.p[i][c];
+            h_[i][c] += alpha[c] * next.wp[i][c];
+            r_[i][c] -= alpha[c] * times_a(next, i, c);
+        }
+    });
+    r_norm2_ = weighted_sums(n_, channels_, weight_, [&](std::uint32_t i, int c) { return double(r_[i][c]) * r_[i][c]; });
+    for (int c = 0; c < channels_; ++c) diverged_ = diverged_ || !std::isfinite(r_norm2_[c]);
+    if (directions_.size() == kept_directions) directions_.erase(directions_.begin());
+    directions_.push_back(std::move(next));
+    return true;
+}
+
+} // namespace lueur

@@ -1,0 +1,61 @@
+// The gathered system (I - rho W) B = rho H_direct, solved for all channels at once on kept rows.
+//
+// B: reflected radiosity at the coarse vertices, W m^-2 nm^-1. W: gather_rows.h. H = W B is the indirect irradiance.
+// Method: generalised conjugate residuals, truncated (Eisenstat, Elman & Schultz 1983, Orthomin(k)): one application of W a sweep, and the
+// residual of no channel ever grows. W by random rays is not symmetric, so conjugate gradients are not available; plain Jacobi
+// sweeps need ln(eps)/ln(rho) of them. Each channel is its own system: the coefficients are per channel.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <vector>
+
+#include "core/solve/channel_field.h"
+#include "core/transport/gather_rows.h"
+
+namespace lueur {
+
+// out_i = mean over all rays of all passes of field[end of ray]. `field` has one more row than receivers, which is zero: the outside.
+// False (and out undefined) when cancelled.
+bool apply_rows(const std::vector<GatherPass>& passes, const ChannelField& field, ChannelField& out,
+                const std::atomic<bool>& cancel);
+
+class GatherSystem {
+public:
+    GatherSystem() = default;
+    // weight: of each vertex in norms, its area; rho: n rows.
+    GatherSystem(std::uint32_t vertices, int channels, std::vector<float> weight);
+
+    // A new right side (rho * H_direct) and reflectance; keeps the solution so far as the first guess, scaled in each channel so that
+    // its residual is smallest. Needs no ray and no application of W.
+    void set_sources(const ChannelField& rho, const ChannelField& direct);
+    void rows_changed(const std::vector<GatherPass>& passes, const std::atomic<bool>& cancel); // more passes: H = W B anew
+    void clear(); // B = 0
+
+    bool sweep(const std::vector<GatherPass>& passes, const std::atomic<bool>& cancel); // false when cancelled (nothing changed)
+
+    double relative_residual() const; // worst channel: |r| / |b|, area-weighted 2-norms; 0 for a channel without light
+    bool diverged() const { return diverged_; }
+
+    const ChannelField& radiosity() const { return x_; }   // n + 1 rows, the last zero
+    const ChannelField& indirect() const { return h_; }    // H = W B
+    const ChannelField& residual() const { return r_; }    // unshot radiosity
+
+private:
+    void refresh_residual();
+
+    static constexpr int kept_directions = 4;
+    std::uint32_t n_ = 0;
+    int channels_ = 0;
+    std::vector<float> weight_;
+    ChannelField rho_, b_, x_, h_, r_;
+    struct Direction {
+        ChannelField p, wp;
+        std::array<double, max_channels> norm2{}; // of A p
+    };
+    std::vector<Direction> directions_;
+    std::array<double, max_channels> b_norm2_{}, r_norm2_{};
+    bool diverged_ = false;
+};
+
+} // namespace lueur

@@ -1,0 +1,61 @@
+#include "core/solve/restriction.h"
+
+namespace lueur {
+
+std::vector<float> coarse_vertex_areas(const Mesh& mesh) {
+    std::vector<float> area = vertex_areas(mesh);
+    for (std::size_t v = area.size(); v-- > mesh.coarse_vertex_count;)
+        for (const std::uint32_t parent : mesh.vertices[v].parents) area[parent] += 0.5f * area[v];
+    area.resize(mesh.coarse_vertex_count);
+    return area;
+}
+
+std::vector<float> restrict_direct(const Mesh& mesh, const DirectTransport& direct) {
+    const std::size_t emitters = direct.emitter_count();
+    std::vector<float> area = vertex_areas(mesh);
+    for (std::size_t v = 0; v < area.size(); ++v)
+        if (direct.buried()[v]) area[v] = 0;
+    std::vector<float> sum(mesh.vertices.size() * emitters);
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+        for (std::size_t l = 0; l < emitters; ++l)
+            sum[v * emitters + l] = area[v] * direct.at_vertex(static_cast<std::uint32_t>(v))[l];
+    // Children give half of what they hold to each parent, latest first.
+    for (std::size_t v = area.size(); v-- > mesh.coarse_vertex_count;) {
+        for (const std::uint32_t parent : mesh.vertices[v].parents) {
+            area[parent] += 0.5f * area[v];
+            for (std::size_t l = 0; l < emitters; ++l) sum[parent * emitters + l] += 0.5f * sum[v * emitters + l];
+        }
+    }
+    sum.resize(std::size_t(mesh.coarse_vertex_count) * emitters);
+    for (std::size_t v = 0; v < mesh.coarse_vertex_count; ++v)
+        for (std::size_t l = 0; l < emitters; ++l)
+            sum[v * emitters + l] = area[v] > 0 ? sum[v * emitters + l] / area[v] : 0;
+    return sum;
+}
+
+void fill_buried(std::span<const glm::uvec3> elements, std::vector<std::uint8_t> buried, std::vector<glm::vec3>& values) {
+    std::vector<glm::uvec3> mixed; // elements with buried vertices: few
+    for (const glm::uvec3& e : elements)
+        if (buried[e.x] || buried[e.y] || buried[e.z]) mixed.push_back(e);
+    for (int ring = 0; ring < 4 && !mixed.empty(); ++ring) {
+        std::vector<std::uint32_t> touched;
+        std::vector<glm::vec4> sum(values.size(), glm::vec4(0));
+        for (const glm::uvec3& e : mixed)
+            for (int k = 0; k < 3; ++k) {
+                if (!buried[e[k]]) continue;
+                for (int m = 1; m < 3; ++m) {
+                    const std::uint32_t other = e[(k + m) % 3];
+                    if (buried[other]) continue;
+                    if (sum[e[k]].w == 0) touched.push_back(e[k]);
+                    sum[e[k]] += glm::vec4(values[other], 1);
+                }
+            }
+        if (touched.empty()) break;
+        for (const std::uint32_t v : touched) {
+            values[v] = glm::vec3(sum[v]) / sum[v].w;
+            buried[v] = 0;
+        }
+    }
+}
+
+} // namespace lueur

@@ -1,0 +1,196 @@
+#include "core/solve/shooting.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+
+#include "core/transport/polygon_form_factor.h"
+#include "core/transport/sampling.h"
+
+namespace lueur {
+
+namespace {
+
+using Range = tbb::blocked_range<std::uint32_t>;
+constexpr std::uint32_t grain = 256;
+constexpr double most_sent_on = 0.98; // of a shot's flux
+
+} // namespace
+
+Shooting::Shooting(const World& world, const Mesh& mesh, std::vector<glm::vec3> origins, std::vector<std::uint8_t> buried,
+                   std::vector<ChannelField> direct, std::vector<double> emitted_flux, ChannelField rho, std::vector<float> weight,
+                   std::uint32_t seed)
+    : world_(&world), mesh_(&mesh), origins_(std::move(origins)), buried_(std::move(buried)), direct_(std::move(direct)),
+      emitted_(std::move(emitted_flux)), luminaire_shot_(emitted_.size(), 0), rho_(std::move(rho)), weight_(std::move(weight)),
+      seed_(seed) {
+    const int channels = static_cast<int>(weight_.size());
+    h_ = ChannelField(mesh.coarse_vertex_count, channels);
+    unshot_ = ChannelField(mesh.coarse_element_count, channels);
+    unshot_flux_.assign(mesh.coarse_element_count, 0);
+    emitted_total_ = std::accumulate(emitted_.begin(), emitted_.end(), 0.0);
+    unshot_total_ = emitted_total_;
+
+    mean_rho_channel_.assign(channels, 0);
+    double area = 0, weights = 0;
+    for (std::uint32_t e = 0; e < mesh.coarse_element_count; ++e) {
+        area += mesh.coarse_area[e];
+        for (int c = 0; c < channels; ++c) mean_rho_channel_[c] += double(rho_[e][c]) * mesh.coarse_area[e];
+    }
+    for (int c = 0; c < channels; ++c) {
+        if (area > 0) mean_rho_channel_[c] /= area;
+        mean_rho_ += weight_[c] * mean_rho_channel_[c];
+        weights += weight_[c];
+    }
+    if (weights > 0) mean_rho_ /= weights;
+}
+
+double Shooting::unshot_share() const { return emitted_total_ > 0 ? unshot_total_ / emitted_total_ : 0; }
+
+// Each element reflects the mean of what its vertices received; buried vertices do not count.
+void Shooting::receive(const ChannelField& irradiance) {
+    const Mesh& mesh = *mesh_;
+    const int channels = static_cast<int>(weight_.size());
+    tbb::parallel_for(Range(0, mesh.coarse_element_count, grain), [&](const Range& range) {
+        for (std::uint32_t e = range.begin(); e < range.end(); ++e) {
+            const glm::uvec3 v = mesh.nodes[e].vertices;
+            std::array<const float*, 3> rows{};
+            int count = 0;
+            for (int k = 0; k < 3; ++k)
+                if (!buried_[v[k]]) rows[count++] = irradiance[v[k]];
+            if (count == 0) continue;
+            float* unshot = unshot_[e];
+            const float* rho = rho_[e];
+            float flux = 0;
+            for (int c = 0; c < channels; ++c) {
+                float sum = 0;
+                for (int k = 0; k < count; ++k) sum += rows[k][c];
+                unshot[c] += rho[c] * sum / float(count);
+                flux += weight_[c] * unshot[c];
+            }
+            unshot_flux_[e] = flux * mesh.coarse_area[e];
+        }
+    });
+}
+
+void Shooting::deliver(const std::vector<float>& form_factor, const float* radiosity, double shot_flux) {
+    const Mesh& mesh = *mesh_;
+    const int channels = static_cast<int>(weight_.size());
+    // The flux that the elements would send on. Form factors from vertices sum to 1 at each vertex, but the mean over an element's vertices
+    // is too much for elements that touch the shooter.
+    const double sent_on = tbb::parallel_deterministic_reduce(
+        Range(0, mesh.coarse_element_count, 4 * grain), 0.0,
+        [&](const Range& range, double sum) {
+            for (std::uint32_t e = range.begin(); e < range.end(); ++e) {
+                const glm::uvec3 v = mesh.nodes[e].vertices;
+                float mean = 0, reflected = 0;
+                int count = 0;
+                for (int k = 0; k < 3; ++k)
+                    if (!buried_[v[k]]) mean += form_factor[v[k]], ++count;
+                if (mean <= 0) continue;
+                for (int c = 0; c < channels; ++c) reflected += weight_[c] * rho_[e][c] * radiosity[c];
+                sum += double(mesh.coarse_area[e]) * reflected * mean / count;
+            }
+            return sum;
+        },
+        [](double a, double b) { return a + b; });
+    const double limit = most_sent_on * shot_flux;
+    const float scale = sent_on > limit ? static_cast<float>(limit / sent_on) : 1.0f;
+    ChannelField irradiance(mesh.coarse_vertex_count, channels);
+    tbb::parallel_for(Range(0, mesh.coarse_vertex_count, grain), [&](const Range& range) {
+        for (std::uint32_t i = range.begin(); i < range.end(); ++i) {
+            const float f = form_factor[i] * scale;
+            if (f <= 0) continue;
+            for (int c = 0; c < channels; ++c) {
+                irradiance[i][c] = f * radiosity[c];
+                h_[i][c] += irradiance[i][c];
+            }
+        }
+    });
+    receive(irradiance);
+}
+
+bool Shooting::shoot() {
+    if (emitted_total_ <= 0) return false;
+    // Luminaires, the strongest first: their direct light is kept by the transport.
+    std::size_t l = emitted_.size();
+    for (std::size_t k = 0; k < emitted_.size(); ++k)
+        if (!luminaire_shot_[k] && (l == emitted_.size() || emitted_[k] > emitted_[l])) l = k;
+    if (l < emitted_.size()) {
+        receive(direct_[l]);
+        luminaire_shot_[l] = 1;
+        ++luminaires_shot_;
+        last_shooter_ = no_index;
+    } else {
+        const auto largest = std::max_element(unshot_flux_.begin(), unshot_flux_.end());
+        if (largest == unshot_flux_.end() || !(*largest > 0)) return false;
+        const std::uint32_t j = static_cast<std::uint32_t>(largest - unshot_flux_.begin());
+        const Mesh& mesh = *mesh_;
+        const glm::uvec3 corner = mesh.nodes[j].vertices;
+        const std::array<glm::vec3, 3> p{mesh.vertices[corner.x].position, mesh.vertices[corner.y].position,
+                                         mesh.vertices[corner.z].position};
+        const std::array<glm::dvec3, 3> polygon{p[0], p[1], p[2]};
+        const glm::vec3 normal = glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0]));
+        const float epsilon = world_->epsilon();
+        std::vector<float> form_factor(mesh.coarse_vertex_count, 0);
+        tbb::parallel_for(Range(0, mesh.coarse_vertex_count, 64), [&](const Range& range) {
+            for (std::uint32_t i = range.begin(); i < range.end(); ++i) {
+                if (buried_[i]) continue;
+                const glm::vec3 origin = origins_[i];
+                if (glm::dot(origin - p[0], normal) <= epsilon) continue;
+                const double f = polygon_form_factor(origin, mesh.vertices[i].normal, polygon);
+                if (f <= 1e-9) continue;
+                const glm::vec2 b = triangle_point(r2_point(i, random_offset(seed_, shots_)));
+                const glm::vec3 target = p[0] + b.x * (p[1] - p[0]) + b.y * (p[2] - p[0]) + epsilon * normal;
+                if (!world_->occluded({origin, target - origin, 0, 1 - 1e-4f})) form_factor[i] = static_cast<float>(f);
+            }
+        });
+        rays_ += mesh.coarse_vertex_count;
+        const double shot_flux = unshot_flux_[j];
+        std::vector<float> radiosity(unshot_[j], unshot_[j] + weight_.size());
+        std::fill(unshot_[j], unshot_[j] + weight_.size(), 0.0f);
+        deliver(form_factor, radiosity.data(), shot_flux);
+        last_shooter_ = j;
+    }
+    ++shots_;
+    double unshot = 0;
+    for (const float f : unshot_flux_) unshot += f;
+    for (std::size_t k = 0; k < emitted_.size(); ++k)
+        if (!luminaire_shot_[k]) unshot += emitted_[k];
+    unshot_total_ = unshot;
+    return true;
+}
+
+std::vector<float> Shooting::ambient() const {
+    // B_ambient = R sum_j dB_j A_j / sum_k A_k, R = 1 / (1 - rho_ave) (corrections 34: display only, capped where rho_ave -> 1).
+    const Mesh& mesh = *mesh_;
+    const int channels = static_cast<int>(weight_.size());
+    std::vector<double> sum(channels, 0);
+    double area = 0;
+    for (std::uint32_t e = 0; e < mesh.coarse_element_count; ++e) {
+        area += mesh.coarse_area[e];
+        for (int c = 0; c < channels; ++c) sum[c] += double(unshot_[e][c]) * mesh.coarse_area[e];
+    }
+    std::vector<float> ambient(channels, 0);
+    for (int c = 0; c < channels; ++c)
+        if (area > 0) ambient[c] = static_cast<float>(sum[c] / area / (1 - std::min(mean_rho_channel_[c], 0.98)));
+    return ambient;
+}
+
+std::vector<float> Shooting::unshot_at_vertices() const {
+    const Mesh& mesh = *mesh_;
+    std::vector<float> value(mesh.coarse_vertex_count, 0), count(mesh.coarse_vertex_count, 0);
+    for (std::uint32_t e = 0; e < mesh.coarse_element_count; ++e) {
+        const float exitance = mesh.coarse_area[e] > 0 ? unshot_flux_[e] / mesh.coarse_area[e] : 0;
+        for (int k = 0; k < 3; ++k) value[mesh.nodes[e].vertices[k]] += exitance, count[mesh.nodes[e].vertices[k]] += 1;
+    }
+    for (std::size_t v = 0; v < value.size(); ++v)
+        if (count[v] > 0) value[v] /= count[v];
+    return value;
+}
+
+} // namespace lueur

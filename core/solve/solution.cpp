@@ -1,0 +1,447 @@
+#include "core/solve/solution.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "core/scene/luminaire.h"
+#include "core/solve/ray_budget.h"
+#include "core/solve/restriction.h"
+#include "core/solve/solution_state.h"
+#include "core/transport/time_slice.h"
+
+namespace lueur {
+
+namespace {
+
+constexpr double residual_target = 1e-4;  // |r| / |b|, worst channel
+constexpr std::uint32_t most_sweeps = 400; // a system that needs more does not converge
+constexpr double ray_share = 0.7;         // of the target error that the rays may take; interpolation has the rest
+constexpr double shooting_target = 0.002; // unshot share at which shooting ends
+
+using State = Solution::State;
+
+void make_channels(State& s) {
+    const Scene& scene = *s.scene;
+    s.wavelengths = make_wavelengths(scene.solve.wavelengths);
+    s.material_rho.clear();
+    for (const Material& material : scene.materials)
+        s.material_rho.push_back(reflectance_channels(material.reflectance, s.wavelengths));
+    s.luminaire_exitance.clear();
+    s.status.emitted_lumens = 0;
+    for (const Luminaire& luminaire : scene.luminaires) {
+        s.luminaire_exitance.push_back(exitance_channels(scene, luminaire, s.wavelengths));
+        s.status.emitted_lumens +=
+            xyz_from_channels(s.wavelengths, s.luminaire_exitance.back()).y * emitting_area(scene, luminaire);
+    }
+    s.object_luminaire = luminaire_of_objects(scene);
+    s.status.message = s.status.emitted_lumens > 0 ? "" : "nothing emits light: the picture is black";
+}
+
+ChannelField rho_of_vertices(const State& s) {
+    ChannelField rho(s.mesh.coarse_vertex_count, s.wavelengths.size());
+    for (std::uint32_t i = 0; i < rho.count; ++i) {
+        const auto& values = s.material_rho[s.material_of(s.mesh.vertices[i].surface)];
+        std::copy(values.begin(), values.end(), rho[i]);
+    }
+    return rho;
+}
+
+ChannelField rho_of_elements(const State& s) {
+    ChannelField rho(s.mesh.coarse_element_count, s.wavelengths.size());
+    for (std::uint32_t e = 0; e < rho.count; ++e) {
+        const auto& values = s.material_rho[s.material_of(s.mesh.coarse_surface[e])];
+        std::copy(values.begin(), values.end(), rho[e]);
+    }
+    return rho;
+}
+
+ChannelField direct_of(const State& s, std::size_t first, std::size_t last) {
+    const std::size_t emitters = s.direct->emitter_count();
+    ChannelField h(s.mesh.coarse_vertex_count, s.wavelengths.size());
+    for (std::uint32_t i = 0; i < h.count; ++i)
+        for (std::size_t l = first; l < last; ++l) {
+            const float d = s.coarse_direct[i * emitters + l];
+            if (d == 0) continue;
+            for (int c = 0; c < s.wavelengths.size(); ++c) h[i][c] += d * static_cast<float>(s.luminaire_exitance[l][c]);
+        }
+    return h;
+}
+
+// What the status calls unshot: luminous flux still to be sent on its way, of what the luminaires emit.
+double unshot_flux_share(const State& s) {
+    double flux = 0;
+    for (std::uint32_t i = 0; i < s.mesh.coarse_vertex_count; ++i) {
+        double y = 0;
+        for (int c = 0; c < s.wavelengths.size(); ++c) y += s.wavelengths.xyz_weight[c].y * s.system.residual()[i][c];
+        flux += s.coarse_area[i] * std::abs(y);
+    }
+    return s.status.emitted_lumens > 0 ? flux / s.status.emitted_lumens : 0;
+}
+
+// Equal-flux direct irradiance at coarse vertices: what the ray budget looks at.
+std::vector<float> equal_flux_direct(const State& s) {
+    const std::size_t emitters = s.direct->emitter_count();
+    std::vector<float> direct(s.mesh.coarse_vertex_count, 0);
+    for (std::size_t i = 0; i < direct.size(); ++i)
+        for (std::size_t l = 0; l < emitters; ++l)
+            if (s.direct->emitters()[l].area > 0)
+                direct[i] += s.coarse_direct[i * emitters + l] / s.direct->emitters()[l].area;
+    return direct;
+}
+
+std::vector<float> unburied_area(const State& s) {
+    std::vector<float> area = s.coarse_area;
+    for (std::size_t i = 0; i < area.size(); ++i)
+        if (s.buried[i]) area[i] = 0;
+    return area;
+}
+
+void update_error(State& s) {
+    std::vector<float> radiosity(s.mesh.coarse_vertex_count), direct(s.mesh.coarse_vertex_count);
+    const ChannelField h = direct_of(s, 0, s.direct->emitter_count());
+    double mean_rho = 0, area = 0;
+    for (std::uint32_t i = 0; i < s.mesh.coarse_vertex_count; ++i) {
+        double b = 0, d = 0, rho = 0, y = 0;
+        const auto& material = s.material_rho[s.material_of(s.mesh.vertices[i].surface)];
+        for (int c = 0; c < s.wavelengths.size(); ++c) {
+            const double w = s.wavelengths.xyz_weight[c].y;
+            b += w * s.system.radiosity()[i][c], d += w * h[i][c];
+            rho += w * material[c], y += w;
+        }
+        radiosity[i] = static_cast<float>(b), direct[i] = static_cast<float>(d);
+        mean_rho += s.coarse_area[i] * rho / y, area += s.coarse_area[i];
+    }
+    mean_rho = area > 0 ? mean_rho / area : 0;
+    const double rays = ray_error(s.passes, radiosity, direct, unburied_area(s));
+    const double unsolved = s.status.unshot_share / std::max(1e-3, 1 - mean_rho);
+    const double interpolation = s.direct->misfit();
+    s.status.estimated_error = std::min(1.0, std::sqrt(rays * rays + unsolved * unsolved + interpolation * interpolation));
+}
+
+// In a closed scene that absorbs nothing the radiosity grows without end: say so instead of iterating.
+bool has_no_finite_solution(const State& s) {
+    if (s.status.emitted_lumens <= 0 || s.passes.empty()) return false;
+    for (std::uint32_t i = 0; i < s.mesh.coarse_vertex_count; ++i) {
+        if (s.buried[i]) continue;
+        const auto& rho = s.material_rho[s.material_of(s.mesh.vertices[i].surface)];
+        if (*std::min_element(rho.begin(), rho.end()) < 1 - 1e-7) return false;
+        if (row_sum(s.passes, i, s.mesh.coarse_vertex_count) < 1 - 1e-7) return false;
+    }
+    return true;
+}
+
+void start_gathering(State& s) {
+    const ChannelField direct = direct_of(s, 0, s.direct->emitter_count());
+    if (!s.solving || s.system.radiosity().count != s.mesh.coarse_vertex_count + 1)
+        s.system = GatherSystem(s.mesh.coarse_vertex_count, s.wavelengths.size(), unburied_area(s));
+    s.system.set_sources(rho_of_vertices(s), direct);
+    s.solving = true;
+    s.status.sweeps = 0;
+}
+
+void start_shooting(State& s) {
+    std::vector<ChannelField> direct;
+    std::vector<double> flux;
+    for (std::size_t l = 0; l < s.direct->emitter_count(); ++l) {
+        direct.push_back(direct_of(s, l, l + 1));
+        flux.push_back(0);
+    }
+    std::vector<float> weight;
+    double mean = 0;
+    for (const Xyz& w : s.wavelengths.xyz_weight) mean += w.y / s.wavelengths.size();
+    for (const Xyz& w : s.wavelengths.xyz_weight) weight.push_back(static_cast<float>(0.95 * w.y + 0.05 * mean));
+    for (std::size_t l = 0; l < flux.size(); ++l)
+        for (int c = 0; c < s.wavelengths.size(); ++c)
+            flux[l] += weight[c] * s.luminaire_exitance[l][c] * s.direct->emitters()[l].area;
+    s.shooting = Shooting(*s.world, s.mesh, s.origins, s.buried, std::move(direct), std::move(flux), rho_of_elements(s),
+                          std::move(weight), s.scene->solve.seed);
+    s.solving = true;
+    s.status.shots = 0;
+}
+
+void restrict_sources(State& s) {
+    s.coarse_direct = restrict_direct(s.mesh, *s.direct);
+    s.coarse_area = coarse_vertex_areas(s.mesh);
+}
+
+// Sources or paints are new (or the direct light is finer): make the solver hold them.
+void start_solving(State& s) {
+    if (s.scene->solve.solver == SolverKind::shooting) start_shooting(s);
+    else start_gathering(s);
+}
+
+void settle(State& s) {
+    s.phase = SolvePhase::settled;
+    s.status.stage = SolveStage::settled;
+    s.status.settled = true;
+    s.status.progress = 1;
+}
+
+void fail(State& s, std::string message) {
+    s.phase = SolvePhase::failed;
+    s.status.stage = SolveStage::failed;
+    s.status.message = std::move(message);
+}
+
+void publish_mesh(State& s) {
+    s.published_mesh = std::make_shared<const Mesh>(s.mesh);
+    s.status.vertices = static_cast<std::uint32_t>(s.mesh.vertices.size());
+    s.status.elements = static_cast<std::uint32_t>(s.mesh.elements.size());
+    s.status.receivers = s.mesh.coarse_vertex_count;
+}
+
+void step_mesh(State& s) {
+    s.status.stage = SolveStage::meshing;
+    const double size = s.scene->solve.element_size > 0 ? s.scene->solve.element_size : automatic_element_size(*s.scene);
+    s.mesh = make_mesh(*s.scene, {size});
+    s.world = std::make_shared<const World>(s.mesh);
+    s.origins = ray_origins(s.mesh, s.world->epsilon());
+    s.buried.assign(s.mesh.coarse_vertex_count, 0);
+    const DirectParams params{0.03f, static_cast<float>(size / 10), 20000 + 4 * s.mesh.coarse_vertex_count};
+    s.direct = std::make_unique<DirectTransport>(*s.world, s.mesh, make_emitters(*s.scene), params);
+    publish_mesh(s);
+    s.cursor = 0;
+    s.phase = SolvePhase::light;
+}
+
+void step_light(State& s, const std::atomic<bool>& cancel) {
+    s.status.stage = SolveStage::direct;
+    if (!s.direct->light_vertices(cancel)) return;
+    s.cursor = 0;
+    s.phase = SolvePhase::burial;
+}
+
+void step_burial(State& s, const std::atomic<bool>& cancel) {
+    if (!run_slice(s.cursor, s.mesh.coarse_vertex_count, 64, cancel, [&](std::uint32_t first, std::uint32_t last) {
+            find_buried(*s.world, s.mesh, s.origins, first, last, s.buried);
+        }))
+        return;
+    s.status.rays += std::uint64_t(s.mesh.coarse_vertex_count) * 16;
+    restrict_sources(s);
+    s.phase = s.scene->solve.solver == SolverKind::shooting ? SolvePhase::refine : SolvePhase::gather;
+}
+
+void step_gather(State& s, const std::atomic<bool>& cancel) {
+    s.status.stage = SolveStage::gathering_rays;
+    if (!s.pass_open) {
+        s.passes.push_back(make_gather_pass(s.mesh));
+        s.cursor = 0;
+        s.pass_open = true;
+    }
+    const std::uint32_t pass = static_cast<std::uint32_t>(s.passes.size()) - 1;
+    if (!run_slice(s.cursor, s.mesh.coarse_vertex_count, 64, cancel, [&](std::uint32_t first, std::uint32_t last) {
+            trace_gather_rays(*s.world, s.mesh, s.origins, s.buried, s.scene->solve.seed, pass, first, last, s.passes.back());
+        }))
+        return;
+    s.pass_open = false;
+    s.status.rays += std::uint64_t(s.mesh.coarse_vertex_count) * rays_per_pass;
+    s.status.rays_per_receiver = static_cast<std::uint32_t>(s.passes.size()) * rays_per_pass;
+    s.status.row_entries = std::uint64_t(s.mesh.coarse_vertex_count) * s.status.rays_per_receiver;
+    if (!s.solving) start_gathering(s);
+    std::atomic<bool> never{false};
+    s.system.rows_changed(s.passes, never);
+    s.status.sweeps = 0;
+    s.phase = SolvePhase::sweep;
+}
+
+std::uint32_t most_passes(const State& s) {
+    return std::max<std::uint32_t>(2, static_cast<std::uint32_t>(s.scene->solve.max_rays) / rays_per_pass);
+}
+
+// More rays? Asked each time there are as many as were wanted; the answer depends on the geometry only.
+void plan_passes(State& s) {
+    const std::uint32_t now = static_cast<std::uint32_t>(s.passes.size());
+    if (now < 2) {
+        s.passes_wanted = 2;
+        return;
+    }
+    if (now < s.passes_wanted) return;
+    const double target = ray_share * s.scene->solve.target_error;
+    const double error = grey_ray_error(s.passes, equal_flux_direct(s), unburied_area(s));
+    if (error <= target) return;
+    s.passes_wanted = std::min(most_passes(s), now + 1);
+}
+
+void step_sweep(State& s, const std::atomic<bool>& cancel) {
+    s.status.stage = SolveStage::solving;
+    if (has_no_finite_solution(s))
+        return fail(s, "no finite solution: the scene is closed and every surface reflects everything; some reflectance must be below 1");
+    if (s.system.relative_residual() > residual_target) {
+        if (!s.system.sweep(s.passes, cancel)) return;
+        ++s.status.sweeps;
+        if (s.system.diverged() || s.status.sweeps > most_sweeps)
+            return fail(s, "the solver does not converge on this scene; a reflectance is too close to 1");
+        s.status.unshot_share = unshot_flux_share(s);
+        if (s.system.relative_residual() > residual_target) return;
+    }
+    s.status.unshot_share = unshot_flux_share(s);
+    update_error(s);
+    if (!s.refined) {
+        s.phase = SolvePhase::refine;
+        return;
+    }
+    plan_passes(s);
+    if (s.passes.size() < s.passes_wanted) {
+        s.phase = SolvePhase::gather;
+        return;
+    }
+    settle(s);
+}
+
+void step_refine(State& s, const std::atomic<bool>& cancel) {
+    s.status.stage = SolveStage::direct;
+    const std::size_t before = s.mesh.vertices.size();
+    const bool done = s.direct->refine(cancel);
+    if (s.mesh.vertices.size() != before) publish_mesh(s);
+    if (!done) return;
+    list_leaves(s.mesh);
+    publish_mesh(s);
+    restrict_sources(s);
+    s.refined = true;
+    start_solving(s);
+    s.phase = s.scene->solve.solver == SolverKind::shooting ? SolvePhase::shoot : SolvePhase::sweep;
+}
+
+void step_shoot(State& s, const std::atomic<bool>& cancel) {
+    s.status.stage = SolveStage::solving;
+    const auto start = std::chrono::steady_clock::now();
+    const std::uint64_t rays_before = s.shooting.rays();
+    bool more = true;
+    do {
+        more = s.shooting.shoot();
+    } while (more && s.shooting.unshot_share() > shooting_target && !cancel.load(std::memory_order_relaxed) &&
+             s.shooting.luminaires_shot() == s.direct->emitter_count() &&
+             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < step_seconds);
+    s.status.rays += s.shooting.rays() - rays_before;
+    s.status.shots = s.shooting.shots();
+    s.status.shooting_element = s.shooting.last_shooter();
+    s.status.unshot_share = s.shooting.unshot_share();
+    // What is unshot would be reflected on and on: at most unshot / (1 - rho_ave) of the flux is missing.
+    const double unsolved = s.status.unshot_share / std::max(1e-3, 1 - s.shooting.mean_reflectance());
+    s.status.estimated_error = std::min(1.0, std::hypot(unsolved, s.direct->misfit()));
+    if (!more || s.shooting.unshot_share() <= shooting_target) settle(s);
+}
+
+} // namespace
+
+std::uint32_t Solution::State::material_of(std::uint32_t surface) const {
+    return static_cast<std::uint32_t>(at(scene->objects[at(scene->geometry->surfaces[surface].object)].material));
+}
+
+const std::vector<double>* Solution::State::exitance_of(std::uint32_t surface, bool back) const {
+    const auto& luminaire = object_luminaire[at(scene->geometry->surfaces[surface].object)];
+    if (!luminaire) return nullptr;
+    const EmitSide side = scene->luminaires[at(*luminaire)].side;
+    if (side != EmitSide::both && (side == EmitSide::back) != back) return nullptr;
+    return &luminaire_exitance[at(*luminaire)];
+}
+
+bool Solution::State::luminaire_is_lit(std::size_t luminaire) const {
+    if (scene->solve.solver != SolverKind::shooting || !solving) return scene->solve.solver != SolverKind::shooting;
+    return shooting.luminaire_has_shot()[luminaire] != 0;
+}
+
+const ChannelField& Solution::State::indirect() const {
+    return scene->solve.solver == SolverKind::shooting ? shooting.indirect() : system.indirect();
+}
+
+std::vector<float> Solution::State::ambient() const {
+    return scene->solve.solver == SolverKind::shooting && solving ? shooting.ambient() : std::vector<float>{};
+}
+
+Solution::Solution(std::shared_ptr<const Scene> scene) : state_(std::make_unique<State>()) {
+    state_->scene = std::move(scene);
+    make_channels(*state_);
+}
+Solution::~Solution() = default;
+Solution::Solution(Solution&&) noexcept = default;
+Solution& Solution::operator=(Solution&&) noexcept = default;
+
+void Solution::update(std::shared_ptr<const Scene> scene, SolveFrom stale) {
+    State& s = *state_;
+    const SolveSettings before = s.scene->solve;
+    s.scene = std::move(scene);
+    if (stale == SolveFrom::nothing) return;
+    s.status.seconds = 0;
+    s.status.last_edit_seconds = 0;
+    s.status.settled = false;
+    s.edit_open = true;
+    if (stale == SolveFrom::mesh) {
+        auto fresh = std::make_unique<State>();
+        fresh->scene = s.scene;
+        state_ = std::move(fresh);
+        make_channels(*state_);
+        return;
+    }
+    make_channels(s);
+    if (s.scene->solve.solver != before.solver || !(s.scene->solve.wavelengths == before.wavelengths) ||
+        stale == SolveFrom::black || s.phase == SolvePhase::failed)
+        s.solving = false; // nothing of the old radiosities can be used
+    if (s.scene->solve.target_error != before.target_error || s.scene->solve.max_rays != before.max_rays) {
+        s.passes.clear(); // the number of rays follows from the settings, never from what was there before
+        s.passes_wanted = 1;
+        s.pass_open = false;
+        s.solving = false;
+    }
+    const bool shooting = s.scene->solve.solver == SolverKind::shooting;
+    const bool transport_ready = s.phase != SolvePhase::mesh && s.phase != SolvePhase::light && s.phase != SolvePhase::burial;
+    if (!transport_ready) return;
+    if (std::exchange(s.pass_open, false)) s.passes.pop_back(); // half traced: again later
+    if (shooting) {
+        if (!s.refined) {
+            s.phase = SolvePhase::refine;
+            return;
+        }
+        start_shooting(s);
+        s.phase = SolvePhase::shoot;
+        return;
+    }
+    if (s.passes.empty()) {
+        s.phase = SolvePhase::gather;
+        return;
+    }
+    const bool fresh = !s.solving;
+    start_gathering(s);
+    if (fresh) {
+        std::atomic<bool> never{false};
+        s.system.rows_changed(s.passes, never);
+    }
+    s.phase = SolvePhase::sweep;
+}
+
+bool Solution::step(const std::atomic<bool>& cancel) {
+    State& s = *state_;
+    if (s.phase == SolvePhase::settled || s.phase == SolvePhase::failed) return false;
+    const auto start = std::chrono::steady_clock::now();
+    const std::uint64_t direct_before = s.direct ? s.direct->rays() : 0;
+    switch (s.phase) {
+    case SolvePhase::mesh: step_mesh(s); break;
+    case SolvePhase::light: step_light(s, cancel); break;
+    case SolvePhase::burial: step_burial(s, cancel); break;
+    case SolvePhase::gather: step_gather(s, cancel); break;
+    case SolvePhase::sweep: step_sweep(s, cancel); break;
+    case SolvePhase::refine: step_refine(s, cancel); break;
+    case SolvePhase::shoot: step_shoot(s, cancel); break;
+    case SolvePhase::settled:
+    case SolvePhase::failed: break;
+    }
+    s.status.rays += s.direct->rays() - direct_before;
+    s.status.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (s.edit_open && s.phase == SolvePhase::settled) {
+        s.edit_open = false;
+        s.status.last_edit_seconds = s.status.seconds;
+    }
+    return s.phase != SolvePhase::settled && s.phase != SolvePhase::failed;
+}
+
+const SolveStatus& Solution::status() const { return state_->status; }
+const std::shared_ptr<const Scene>& Solution::scene() const { return state_->scene; }
+std::shared_ptr<const Mesh> Solution::mesh() const { return state_->published_mesh; }
+std::shared_ptr<const World> Solution::world() const { return state_->world; }
+std::shared_ptr<const Field> Solution::field() const {
+    return state_->published_mesh ? compose_field(*state_) : nullptr;
+}
+
+} // namespace lueur

@@ -1,0 +1,47 @@
+// A solution in the making: mesh, transport and radiosities of one scene, brought forward in small steps.
+//
+// Thread: one at a time; a step uses the calling TBB arena for its parallel loops. Everything handed out (mesh, world, field) is immutable
+// and may be kept and read from any thread.
+#pragma once
+
+#include <atomic>
+#include <memory>
+
+#include "core/scene/scene.h"
+#include "core/solve/field.h"
+#include "core/solve/status.h"
+#include "core/transport/mesh.h"
+#include "core/transport/world.h"
+
+namespace lueur {
+
+// What an edit left valid; all stages after it are redone.
+enum class SolveFrom { mesh, sources, reflectance, black, nothing };
+
+class Solution {
+public:
+    explicit Solution(std::shared_ptr<const Scene> scene);
+    ~Solution();
+    Solution(Solution&&) noexcept;
+    Solution& operator=(Solution&&) noexcept;
+
+    // sources: new exitances (no ray); reflectance: new reflectances or wavelengths (no ray); black: start again from zero on kept rays.
+    void update(std::shared_ptr<const Scene> scene, SolveFrom stale);
+
+    // One small step (about 5 ms of work a core); stops early and resumably when `cancel` becomes true. False when nothing is left to do.
+    bool step(const std::atomic<bool>& cancel);
+
+    const SolveStatus& status() const;
+    const std::shared_ptr<const Scene>& scene() const;
+    std::shared_ptr<const Mesh> mesh() const;   // null before it is made
+    std::shared_ptr<const World> world() const; // null before it is made
+    std::shared_ptr<const Field> field() const; // as of now; null before there is a mesh
+
+    struct State; // solution_state.h, for the rest of core/solve and core/view
+    const State& state() const { return *state_; }
+
+private:
+    std::unique_ptr<State> state_;
+};
+
+} // namespace lueur

@@ -1,0 +1,66 @@
+// The inside of a Solution, for core/solve and core/view only.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/solve/gather_system.h"
+#include "core/solve/shooting.h"
+#include "core/solve/solution.h"
+#include "core/transport/direct_transport.h"
+#include "core/transport/gather_rows.h"
+
+namespace lueur {
+
+enum class SolvePhase { mesh, light, burial, gather, sweep, refine, shoot, settled, failed };
+
+struct Solution::State {
+    std::shared_ptr<const Scene> scene;
+    SolvePhase phase = SolvePhase::mesh;
+    SolveStatus status;
+    std::uint32_t cursor = 0; // of the phase's time slices
+
+    // Transport: geometry only.
+    Mesh mesh;                                   // grows while direct light refines it
+    std::shared_ptr<const Mesh> published_mesh;  // as of the last level
+    std::shared_ptr<const World> world;
+    std::unique_ptr<DirectTransport> direct;
+    std::vector<glm::vec3> origins;              // of coarse vertices
+    std::vector<std::uint8_t> buried;            // coarse vertices
+    std::vector<GatherPass> passes;
+    bool pass_open = false;                      // the last pass is being traced
+    std::uint32_t passes_wanted = 1;             // from the geometry alone: see passes_for
+    bool refined = false;
+    std::vector<float> coarse_direct;            // D restricted to coarse vertices, * emitters
+    std::vector<float> coarse_area;              // m^2 of each coarse vertex
+
+    // Sources and paints, in channels.
+    Wavelengths wavelengths;
+    std::vector<std::vector<double>> material_rho;      // per material
+    std::vector<std::vector<double>> luminaire_exitance; // per luminaire, W m^-2 nm^-1
+    std::vector<std::optional<LuminaireIndex>> object_luminaire;
+
+    GatherSystem system;
+    Shooting shooting;
+    bool solving = false; // system or shooting hold this scene's sources
+    bool edit_open = true; // last_edit_seconds is still to be set
+
+    std::uint32_t material_of(std::uint32_t surface) const;
+    // Exitance of the luminaire that shines on this side of a surface, or null.
+    const std::vector<double>* exitance_of(std::uint32_t surface, bool back) const;
+    bool luminaire_is_lit(std::size_t luminaire) const; // shooting: it has shot
+    const ChannelField& indirect() const;               // irradiance at coarse vertices
+    std::vector<float> ambient() const;                 // irradiance to be added for display; empty with gathering
+};
+
+std::shared_ptr<const Field> compose_field(const Solution::State& state);
+
+// Reflected radiosity per channel at a point of a coarse element: rho (H_direct + H_indirect). `radiosity` has one entry a channel.
+void add_reflected_radiosity(const Solution::State& state, std::uint32_t element, float b1, float b2, double factor,
+                             std::span<double> radiosity);
+
+// Irradiance per channel at a point of a coarse element, as the window shows it.
+std::vector<double> irradiance_at(const Solution::State& state, std::uint32_t element, float b1, float b2);
+
+} // namespace lueur

@@ -1,0 +1,39 @@
+// What a solution says of itself: how far it is, what it cost, how wrong it still may be.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/transport/mesh.h"
+
+namespace lueur {
+
+enum class SolveStage { idle, meshing, direct, gathering_rays, solving, settled, failed };
+std::string to_string(SolveStage stage);
+
+struct ConvergencePoint {
+    double seconds = 0;      // of solve time since the last restart or edit that made the solution stale
+    double unshot_share = 1; // unshot (or residual) luminous flux / emitted flux
+    double error = 1;        // estimated relative RMS error of irradiance
+};
+
+struct SolveStatus {
+    SolveStage stage = SolveStage::idle;
+    double progress = 0;          // 0..1 of the stage
+    bool settled = false;         // the target error is met, nothing is left to do
+    bool paused = false;
+    double unshot_share = 1;      // as ConvergencePoint
+    double estimated_error = 1;
+    double emitted_lumens = 0;
+    double seconds = 0;           // solve time since the last stale edit
+    double last_edit_seconds = 0; // solve time from the last edit to the first picture that settled it; 0: not yet
+    std::uint64_t rays = 0;
+    std::uint64_t row_entries = 0;
+    std::uint32_t rays_per_receiver = 0;
+    std::uint32_t sweeps = 0, shots = 0;
+    std::uint32_t receivers = 0, vertices = 0, elements = 0;
+    std::uint32_t shooting_element = no_index; // coarse element that shot last
+    std::string message;          // a warning the user should read (no light, open scene...), or why it failed
+};
+
+} // namespace lueur

@@ -1,0 +1,39 @@
+// Longest-edge bisection of a conforming triangle mesh (Rivara 1984, "Algorithms for refining triangular grids suitable for adaptive and multigrid
+// techniques"): splitting an element splits its neighbours as far as needed, so that the mesh stays conforming.
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "core/transport/mesh.h"
+
+namespace lueur {
+
+class Bisection {
+public:
+    explicit Bisection(Mesh& mesh); // adopts the leaves of `mesh`; the mesh must outlive it
+
+    // Splits leaf `node` (and neighbours, as conformity asks). New vertices and nodes are appended to the mesh.
+    void split(std::uint32_t node);
+
+    static std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
+        return a < b ? (std::uint64_t(a) << 32 | b) : (std::uint64_t(b) << 32 | a);
+    }
+    int longest_edge(std::uint32_t node) const;
+    float edge_length(std::uint32_t a, std::uint32_t b) const;
+
+private:
+    void bisect(std::uint32_t node, int edge, std::uint32_t midpoint);
+    void attach(std::uint32_t node);
+    void detach(std::uint32_t node);
+    std::uint32_t neighbour(std::uint32_t node, int edge) const;
+
+    Mesh& mesh_;
+    std::unordered_map<std::uint64_t, std::array<std::uint32_t, 2>> edge_leaves_; // the one or two leaves at an edge
+};
+
+// The list of leaves anew, after splitting.
+void list_leaves(Mesh& mesh);
+
+} // namespace lueur

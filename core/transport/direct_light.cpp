@@ -1,0 +1,163 @@
+#include "core/transport/direct_light.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "core/transport/polygon_form_factor.h"
+#include "core/transport/sampling.h"
+
+namespace lueur {
+
+namespace {
+
+constexpr int shadow_points = 64;    // in a penumbra
+constexpr int probe_points = 6;      // settle the fully lit and the fully dark
+constexpr float far_diameters = 4;   // from here on points replace the exact formula
+constexpr std::size_t most_exact_triangles = 64;
+
+// cos cos / r^2 from a receiver to a point of an emitter; 0 when one is behind the other.
+float kernel(glm::vec3 origin, glm::vec3 normal, const EmitterPoint& p) {
+    const glm::vec3 d = p.position - origin;
+    const float r2 = glm::dot(d, d), cos_receiver = glm::dot(d, normal), cos_emitter = -glm::dot(d, p.normal);
+    return cos_receiver > 0 && cos_emitter > 0 && r2 > 0 ? cos_receiver * cos_emitter / (r2 * r2) : 0;
+}
+
+bool sees(const World& world, glm::vec3 origin, glm::vec3 target) {
+    return !world.occluded({origin, target - origin, 0, 1 - 1e-4f});
+}
+
+double exact_form_factor(const Emitter& emitter, glm::vec3 origin, glm::vec3 normal) {
+    double sum = 0;
+    for (const EmitterTriangle& t : emitter.triangles) {
+        if (glm::dot(origin - t.corners[0], t.normal) <= 0) continue; // behind this triangle
+        const std::array<glm::dvec3, 3> polygon{t.corners[0], t.corners[1], t.corners[2]};
+        sum += polygon_form_factor(origin, normal, polygon);
+    }
+    return sum;
+}
+
+bool nothing_arrives(const Emitter& emitter, glm::vec3 origin, glm::vec3 normal) {
+    return emitter.area <= 0 || glm::dot(emitter.centre - origin, normal) <= -emitter.radius;
+}
+
+void add_triangles(const Scene& scene, const Luminaire& luminaire, Emitter& emitter) {
+    const Geometry& geometry = *scene.geometry;
+    std::vector<bool> lit(scene.objects.size(), false);
+    for (const ObjectIndex o : luminaire.objects) lit[at(o)] = true;
+    for (std::size_t t = 0; t < geometry.triangles.size(); ++t) {
+        if (!lit[at(geometry.surfaces[at(geometry.triangle_surface[t])].object)]) continue;
+        const glm::uvec3 v = geometry.triangles[t];
+        const glm::vec3 a = geometry.vertices[v.x].position, b = geometry.vertices[v.y].position,
+                        c = geometry.vertices[v.z].position;
+        const glm::vec3 normal = glm::cross(b - a, c - a);
+        const float length = glm::length(normal);
+        if (!(length > 0)) continue;
+        if (luminaire.side != EmitSide::back) emitter.triangles.push_back({{a, b, c}, normal / length, length / 2});
+        if (luminaire.side != EmitSide::front) emitter.triangles.push_back({{a, c, b}, -normal / length, length / 2});
+    }
+}
+
+// Greedily the farthest from those chosen, of the stratified points, first the one farthest from the centre.
+void choose_probes(Emitter& emitter) {
+    std::vector<float> distance(emitter.points.size(), 1e30f);
+    glm::vec3 last = emitter.centre;
+    for (int k = 0; k < probe_points && k < static_cast<int>(emitter.points.size()); ++k) {
+        std::size_t best = 0;
+        for (std::size_t p = 0; p < emitter.points.size(); ++p) {
+            const glm::vec3 d = emitter.points[p].position - last;
+            distance[p] = k == 1 ? glm::dot(d, d) : std::min(distance[p], glm::dot(d, d));
+            if (distance[p] > distance[best]) best = p;
+        }
+        last = emitter.points[best].position;
+        emitter.probes.push_back(emitter.points[best]);
+    }
+}
+
+} // namespace
+
+EmitterPoint emitter_point(const Emitter& emitter, glm::vec2 u) {
+    const float target = u.x * emitter.area;
+    const auto found = std::upper_bound(emitter.cumulative_area.begin(), emitter.cumulative_area.end(), target);
+    const std::size_t t = std::min<std::size_t>(found - emitter.cumulative_area.begin(), emitter.triangles.size() - 1);
+    const EmitterTriangle& triangle = emitter.triangles[t];
+    const float before = t == 0 ? 0 : emitter.cumulative_area[t - 1];
+    const glm::vec2 b = triangle_point({std::clamp((target - before) / triangle.area, 0.0f, 1.0f), u.y});
+    return {triangle.corners[0] + b.x * (triangle.corners[1] - triangle.corners[0]) +
+                b.y * (triangle.corners[2] - triangle.corners[0]),
+            triangle.normal};
+}
+
+std::vector<Emitter> make_emitters(const Scene& scene) {
+    std::vector<Emitter> emitters;
+    for (const Luminaire& luminaire : scene.luminaires) {
+        Emitter e;
+        add_triangles(scene, luminaire, e);
+        glm::vec3 low(1e30f), high(-1e30f);
+        for (const EmitterTriangle& t : e.triangles) {
+            e.area += t.area;
+            e.cumulative_area.push_back(e.area);
+            for (const glm::vec3& c : t.corners) low = glm::min(low, c), high = glm::max(high, c);
+        }
+        if (!e.triangles.empty()) {
+            e.centre = 0.5f * (low + high);
+            for (const EmitterTriangle& t : e.triangles)
+                for (const glm::vec3& c : t.corners) e.radius = std::max(e.radius, glm::length(c - e.centre));
+            for (int k = 0; k < shadow_points; ++k)
+                e.points.push_back(emitter_point(e, r2_point(static_cast<std::uint32_t>(k), {0, 0})));
+            choose_probes(e);
+        }
+        emitters.push_back(std::move(e));
+    }
+    return emitters;
+}
+
+float direct_form_factor(const World& world, const Emitter& emitter, glm::vec3 origin, glm::vec3 normal, std::uint64_t& rays) {
+    if (nothing_arrives(emitter, origin, normal)) return 0;
+    int seen = 0, facing = 0;
+    for (const EmitterPoint& p : emitter.probes) {
+        if (kernel(origin, normal, p) <= 0) continue;
+        ++facing;
+        seen += sees(world, origin, p.position);
+    }
+    rays += facing;
+    const bool all_facing = facing == static_cast<int>(emitter.probes.size());
+    if (all_facing && seen == 0) return 0;
+
+    const bool wholly_seen = all_facing && seen == facing;
+    const float distance = glm::length(emitter.centre - origin);
+    const bool exact = distance < far_diameters * 2 * emitter.radius && emitter.triangles.size() <= most_exact_triangles;
+    if (exact && wholly_seen) return static_cast<float>(exact_form_factor(emitter, origin, normal));
+
+    double visible = 0, all = 0;
+    for (const EmitterPoint& p : emitter.points) {
+        const float g = kernel(origin, normal, p);
+        if (g <= 0) continue;
+        all += g;
+        if (wholly_seen || (++rays, sees(world, origin, p.position))) visible += g;
+    }
+    if (exact) {
+        const double f = exact_form_factor(emitter, origin, normal);
+        return static_cast<float>(all > 0 ? f * visible / all : (seen > 0 ? f : 0));
+    }
+    return static_cast<float>(visible * emitter.area / (std::numbers::pi * static_cast<double>(emitter.points.size())));
+}
+
+float direct_form_factor_sampled(const World& world, const Emitter& emitter, glm::vec3 origin, glm::vec3 normal, int samples,
+                                 glm::vec2 offset) {
+    if (nothing_arrives(emitter, origin, normal)) return 0;
+    double visible = 0, all = 0;
+    for (int k = 0; k < samples; ++k) {
+        const EmitterPoint p = emitter_point(emitter, r2_point(static_cast<std::uint32_t>(k), offset));
+        const float g = kernel(origin, normal, p);
+        if (g <= 0) continue;
+        all += g;
+        if (sees(world, origin, p.position)) visible += g;
+    }
+    const bool exact = emitter.triangles.size() <= most_exact_triangles;
+    if (exact && all > 0) return static_cast<float>(exact_form_factor(emitter, origin, normal) * visible / all);
+    return static_cast<float>(visible * emitter.area / (std::numbers::pi * samples));
+}
+
+} // namespace lueur

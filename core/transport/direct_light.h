@@ -1,0 +1,50 @@
+// Direct light apart: how much of a luminaire's exitance arrives at a point.
+//
+// D = F * V: F the exact polygon form factor (polygon_form_factor.h), V the visible share by stratified shadow rays, weighted with
+// cos cos / r^2 (so D is the irradiance for unit exitance). Far from a luminaire F too comes from the stratified points: at four times its
+// diameter they agree to 0.2 %. The points are the same for all receivers, so that shadows are smooth from vertex to vertex.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/scene/scene.h"
+#include "core/transport/world.h"
+
+namespace lueur {
+
+struct EmitterTriangle {
+    std::array<glm::vec3, 3> corners; // counter-clockwise from the emitting side
+    glm::vec3 normal;
+    float area;
+};
+
+struct EmitterPoint {
+    glm::vec3 position, normal;
+};
+
+// The geometry of one luminaire. Independent of its power and spectrum.
+struct Emitter {
+    std::vector<EmitterTriangle> triangles;
+    float area = 0;
+    glm::vec3 centre{0};
+    float radius = 0;                 // of a sphere around it
+    std::vector<EmitterPoint> probes; // far apart: all seen or all hidden settles V
+    std::vector<EmitterPoint> points; // stratified by area
+    std::vector<float> cumulative_area; // one a triangle, ends at `area`
+};
+
+std::vector<Emitter> make_emitters(const Scene& scene);
+
+// A point of the emitter, uniform by area, for u in the unit square.
+EmitterPoint emitter_point(const Emitter& emitter, glm::vec2 u);
+
+// D for one receiver. `origin` is already off its surface.
+float direct_form_factor(const World& world, const Emitter& emitter, glm::vec3 origin, glm::vec3 normal, std::uint64_t& rays);
+
+// The same with `samples` shadow rays of their own random set, for measuring: unbiased visibility.
+float direct_form_factor_sampled(const World& world, const Emitter& emitter, glm::vec3 origin, glm::vec3 normal, int samples,
+                                 glm::vec2 offset);
+
+} // namespace lueur

@@ -1,0 +1,158 @@
+#include "core/transport/direct_transport.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/transport/gather_rows.h"
+#include "core/transport/time_slice.h"
+
+namespace lueur {
+
+DirectTransport::DirectTransport(const World& world, Mesh& mesh, std::vector<Emitter> emitters, const DirectParams& params)
+    : world_(world), mesh_(mesh), emitters_(std::move(emitters)), params_(params), bisection_(mesh) {
+    for (const Emitter& e : emitters_) weight_.push_back(e.area > 0 ? 1 / e.area : 0);
+    origins_ = ray_origins(mesh_, world_.epsilon());
+    factors_.assign(mesh_.vertices.size() * emitters_.size(), 0);
+    buried_.assign(mesh_.vertices.size(), 0);
+}
+
+void DirectTransport::light(glm::vec3 origin, glm::vec3 normal, float* factors) const {
+    std::uint64_t rays = 0;
+    for (std::size_t l = 0; l < emitters_.size(); ++l)
+        factors[l] = direct_form_factor(world_, emitters_[l], origin, normal, rays);
+    rays_.fetch_add(rays, std::memory_order_relaxed);
+}
+
+float DirectTransport::equal_flux_light(const float* factors) const {
+    float sum = 0;
+    for (std::size_t l = 0; l < emitters_.size(); ++l) sum += weight_[l] * factors[l];
+    return sum;
+}
+
+double DirectTransport::progress() const {
+    if (vertex_cursor_ < mesh_.vertices.size()) return double(vertex_cursor_) / double(mesh_.vertices.size());
+    return refined_ || edges_.empty() ? 1 : double(edge_cursor_) / double(edges_.size());
+}
+
+bool DirectTransport::light_vertices(const std::atomic<bool>& cancel) {
+    const std::uint32_t count = static_cast<std::uint32_t>(mesh_.vertices.size());
+    const bool done = run_slice(vertex_cursor_, count, 32, cancel, [&](std::uint32_t first, std::uint32_t last) {
+        for (std::uint32_t v = first; v < last; ++v) {
+            float* factors = factors_.data() + std::size_t(v) * emitters_.size();
+            light(origins_[v], mesh_.vertices[v].normal, factors);
+            if (equal_flux_light(factors) == 0) find_buried(world_, mesh_, origins_, v, v + 1, buried_);
+        }
+    });
+    if (done && floor_ == 0 && count > 0) {
+        double sum = 0;
+        for (std::uint32_t v = 0; v < count; ++v) sum += equal_flux_light(at_vertex(v));
+        floor_ = static_cast<float>(0.1 * sum / count); // darker than this, a relative error is not seen
+    }
+    return done;
+}
+
+// The middles of the edges of all leaves not looked at yet.
+void DirectTransport::collect_edges() {
+    edges_.clear();
+    edge_slot_.clear();
+    edge_cursor_ = 0;
+    open_.clear();
+    const float smallest2 = params_.smallest_edge * params_.smallest_edge;
+    for (; next_node_ < mesh_.nodes.size(); ++next_node_)
+        if (mesh_.nodes[next_node_].children == no_index) open_.push_back(next_node_);
+    for (const std::uint32_t n : open_) {
+        const glm::uvec3 v = mesh_.nodes[n].vertices;
+        const int longest = bisection_.longest_edge(n);
+        if (bisection_.edge_length(v[longest], v[(longest + 1) % 3]) < smallest2) continue;
+        const glm::vec3 centre =
+            (mesh_.vertices[v.x].position + mesh_.vertices[v.y].position + mesh_.vertices[v.z].position) / 3.0f;
+        for (int k = 0; k < 3; ++k) {
+            const std::uint32_t a = v[k], b = v[(k + 1) % 3];
+            const std::uint64_t key = Bisection::edge_key(a, b);
+            if (straight_.contains(key)) continue;
+            const auto [where, fresh] = edge_slot_.try_emplace(key, static_cast<std::uint32_t>(edges_.size()));
+            if (fresh) edges_.push_back({std::min(a, b), std::max(a, b), glm::vec3(0), 0});
+            edges_[where->second].inward += centre;
+            edges_[where->second].elements += 1;
+        }
+    }
+    edge_factors_.assign(edges_.size() * emitters_.size(), 0);
+}
+
+void DirectTransport::split_bent() {
+    std::vector<std::uint8_t> bent(edges_.size(), 0);
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+        const EdgeMiddle& edge = edges_[e];
+        const float here = equal_flux_light(edge_factors_.data() + e * emitters_.size());
+        const float guess = 0.5f * (equal_flux_light(at_vertex(edge.a)) + equal_flux_light(at_vertex(edge.b)));
+        const float scale = std::max({here, guess, floor_});
+        const float misfit = scale > 0 ? std::abs(here - guess) / scale : 0;
+        const bool inside = buried_[edge.a] && buried_[edge.b];
+        bent[e] = misfit > params_.tolerance && !inside;
+        if (!bent[e]) {
+            straight_.emplace(Bisection::edge_key(edge.a, edge.b), 1);
+            if (!inside) misfit_sum_ += double(misfit) * misfit, ++misfit_count_;
+        }
+    }
+    const std::uint32_t before = static_cast<std::uint32_t>(mesh_.vertices.size());
+    for (const std::uint32_t n : open_) {
+        if (mesh_.vertices.size() >= params_.most_vertices) break;
+        const glm::uvec3 v = mesh_.nodes[n].vertices;
+        bool split = false;
+        for (int k = 0; k < 3; ++k) {
+            const auto slot = edge_slot_.find(Bisection::edge_key(v[k], v[(k + 1) % 3]));
+            split = split || (slot != edge_slot_.end() && bent[slot->second]);
+        }
+        if (split && mesh_.nodes[n].children == no_index) bisection_.split(n);
+    }
+    // New vertices at middles that were looked at are lit already; the others (made for conformity) are lit now.
+    const std::uint32_t after = static_cast<std::uint32_t>(mesh_.vertices.size());
+    factors_.resize(std::size_t(after) * emitters_.size(), 0);
+    buried_.resize(after, 0);
+    list_leaves(mesh_);
+    origins_ = ray_origins(mesh_, world_.epsilon());
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(before, after, 16), [&](const tbb::blocked_range<std::uint32_t>& range) {
+        for (std::uint32_t v = range.begin(); v < range.end(); ++v) {
+            const auto& parents = mesh_.vertices[v].parents;
+            const auto slot = edge_slot_.find(Bisection::edge_key(parents[0], parents[1]));
+            float* factors = factors_.data() + std::size_t(v) * emitters_.size();
+            if (slot != edge_slot_.end())
+                std::copy_n(edge_factors_.data() + std::size_t(slot->second) * emitters_.size(), emitters_.size(), factors);
+            else
+                light(origins_[v], mesh_.vertices[v].normal, factors);
+            if (equal_flux_light(factors) == 0) find_buried(world_, mesh_, origins_, v, v + 1, buried_);
+        }
+    });
+    vertex_cursor_ = after;
+    refined_ = after == before || after >= params_.most_vertices;
+    if (refined_) misfit_ = misfit_count_ > 0 ? std::sqrt(misfit_sum_ / double(misfit_count_)) : 0;
+}
+
+bool DirectTransport::refine(const std::atomic<bool>& cancel) {
+    if (refined_ || emitters_.empty()) return true;
+    if (!level_begun_) {
+        collect_edges();
+        level_begun_ = true;
+    }
+    const float epsilon = world_.epsilon();
+    const bool done = run_slice(
+        edge_cursor_, static_cast<std::uint32_t>(edges_.size()), 32, cancel, [&](std::uint32_t first, std::uint32_t last) {
+            for (std::uint32_t e = first; e < last; ++e) {
+                const EdgeMiddle& edge = edges_[e];
+                const MeshVertex &a = mesh_.vertices[edge.a], &b = mesh_.vertices[edge.b];
+                const glm::vec3 middle = 0.5f * (a.position + b.position);
+                const glm::vec3 sum = a.normal + b.normal;
+                const glm::vec3 normal = glm::dot(sum, sum) > 1e-12f ? glm::normalize(sum) : a.normal;
+                const glm::vec3 shift = 0.02f * (edge.inward / float(edge.elements) - middle);
+                const float bend = glm::dot(shift, normal);
+                light(middle + shift + (epsilon + std::abs(bend) - bend) * normal, normal,
+                      edge_factors_.data() + std::size_t(e) * emitters_.size());
+            }
+        });
+    if (!done) return false;
+    split_bent();
+    level_begun_ = false;
+    return refined_;
+}
+
+} // namespace lueur

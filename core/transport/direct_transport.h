@@ -1,0 +1,78 @@
+// Direct light at the vertices of a mesh that refines itself where direct light bends: shadow edges, contacts, places near a lamp.
+//
+// Refinement looks at geometry only (all luminaires as if they gave the same flux), so that no edit of a lamp or a paint changes the mesh, and a
+// solution after edits is the solution of the same scene opened afresh.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "core/transport/bisection.h"
+#include "core/transport/direct_light.h"
+#include "core/transport/mesh.h"
+#include "core/transport/world.h"
+
+namespace lueur {
+
+struct DirectParams {
+    float tolerance = 0.03f;     // relative misfit of an edge's middle that splits it
+    float smallest_edge = 0;     // m: shorter edges are not split
+    std::uint32_t most_vertices = 60000;
+};
+
+class DirectTransport {
+public:
+    // `mesh` and `world` must outlive it; refine() grows the mesh.
+    DirectTransport(const World& world, Mesh& mesh, std::vector<Emitter> emitters, const DirectParams& params);
+
+    // Each brings its stage forward by one time slice; true when the stage is done.
+    bool light_vertices(const std::atomic<bool>& cancel); // D at the vertices there are
+    bool refine(const std::atomic<bool>& cancel);         // then split, level by level, and light the new ones
+
+    std::size_t emitter_count() const { return emitters_.size(); }
+    const std::vector<Emitter>& emitters() const { return emitters_; }
+    // D of each emitter at a vertex: irradiance for unit exitance.
+    const float* at_vertex(std::uint32_t v) const { return factors_.data() + std::size_t(v) * emitters_.size(); }
+    const std::vector<std::uint8_t>& buried() const { return buried_; } // one a vertex; set for dark vertices inside solids
+    double misfit() const { return misfit_; }  // RMS relative misfit at the middles of edges that were left whole
+    std::uint64_t rays() const { return rays_.load(); }
+    double progress() const;
+
+private:
+    struct EdgeMiddle {
+        std::uint32_t a, b;
+        glm::vec3 inward{0};
+        int elements = 0;
+    };
+    void light(glm::vec3 origin, glm::vec3 normal, float* factors) const;
+    float equal_flux_light(const float* factors) const;
+    void collect_edges();
+    void split_bent();
+
+    const World& world_;
+    Mesh& mesh_;
+    std::vector<Emitter> emitters_;
+    DirectParams params_;
+    Bisection bisection_;
+    std::vector<float> weight_;  // exitance of each emitter at equal flux
+    std::vector<float> factors_; // vertices * emitters
+    std::vector<std::uint8_t> buried_;
+    std::vector<glm::vec3> origins_;
+    std::uint32_t vertex_cursor_ = 0;
+
+    std::vector<EdgeMiddle> edges_;      // of this level, and their D
+    std::vector<float> edge_factors_;
+    std::unordered_map<std::uint64_t, std::uint32_t> edge_slot_;
+    std::unordered_map<std::uint64_t, std::uint8_t> straight_; // edges of earlier levels whose middle was right
+    std::vector<std::uint32_t> open_;    // leaves still to be looked at
+    std::uint32_t edge_cursor_ = 0, next_node_ = 0;
+    bool level_begun_ = false, refined_ = false;
+    float floor_ = 0;
+    double misfit_ = 0, misfit_sum_ = 0;
+    std::uint64_t misfit_count_ = 0;
+    mutable std::atomic<std::uint64_t> rays_{0};
+};
+
+} // namespace lueur

@@ -1,0 +1,40 @@
+// Rows of the transport, traced once and kept: for each receiver, which vertices its cosine-distributed rays meet.
+//
+// This is the lecture's hemisphere with its item buffer, kept: each ray carries an equal share of the form factors, so that
+// W_ij = (rays of i that end at vertex j) / (rays of i) and a row sums to the share of rays that hit anything: 1 in a closed scene. A hit inside an element
+// is given to one of its three vertices, drawn with its interpolation weight: linear interpolation, unbiased, one index a ray.
+// Passes are independent ray sets of one size; their spread is the error estimate.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/transport/mesh.h"
+#include "core/transport/world.h"
+
+namespace lueur {
+
+inline constexpr int rays_per_pass = 32;
+
+// Coarse vertices whose rays mostly meet back faces lie inside a solid (a floor vertex under a block): they take no part.
+// Receivers in [first, last) of `origins`; the result is written to buried[first..last).
+void find_buried(const World& world, const Mesh& mesh, const std::vector<glm::vec3>& origins, std::uint32_t first,
+                 std::uint32_t last, std::vector<std::uint8_t>& buried);
+
+struct GatherPass {
+    // coarse_vertex_count * rays_per_pass; the vertex each ray ended at, or coarse_vertex_count where it left the scene
+    // (or met a black back face).
+    std::vector<std::uint32_t> ends;
+};
+
+GatherPass make_gather_pass(const Mesh& mesh);
+
+// Traces the rays of receivers [first, last) of pass number `pass`. Deterministic for a seed, whatever the chunks and threads.
+void trace_gather_rays(const World& world, const Mesh& mesh, const std::vector<glm::vec3>& origins,
+                       const std::vector<std::uint8_t>& buried, std::uint32_t seed, std::uint32_t pass, std::uint32_t first,
+                       std::uint32_t last, GatherPass& out);
+
+// Share of a receiver's rays that hit something that can shine: the row sum.
+double row_sum(const std::vector<GatherPass>& passes, std::uint32_t receiver, std::uint32_t coarse_vertex_count);
+
+} // namespace lueur

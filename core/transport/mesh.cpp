@@ -1,0 +1,218 @@
+#include "core/transport/mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <unordered_map>
+
+#include "core/transport/bisection.h"
+
+namespace lueur {
+
+namespace {
+
+glm::vec3 area_vector(const Geometry& geometry, const glm::uvec3& triangle) {
+    const glm::vec3 a = geometry.vertices[triangle.x].position;
+    return 0.5f * glm::cross(geometry.vertices[triangle.y].position - a, geometry.vertices[triangle.z].position - a);
+}
+
+// A surface shows its back where its material says so, or where it shines there.
+std::vector<bool> two_sided_surfaces(const Scene& scene) {
+    std::vector<bool> objects;
+    for (const Object& object : scene.objects) objects.push_back(scene.materials[at(object.material)].two_sided);
+    for (const Luminaire& luminaire : scene.luminaires)
+        for (const ObjectIndex o : luminaire.objects)
+            if (luminaire.side != EmitSide::front) objects[at(o)] = true;
+    std::vector<bool> surfaces;
+    for (const Surface& surface : scene.geometry->surfaces) surfaces.push_back(objects[at(surface.object)]);
+    return surfaces;
+}
+
+// Vertices of one surface are one where position, texture coordinate and (on curved surfaces) normal are the same bits.
+struct WeldKey {
+    std::uint32_t surface;
+    std::array<float, 8> value;
+    bool operator==(const WeldKey&) const = default;
+};
+struct WeldHash {
+    std::size_t operator()(const WeldKey& key) const {
+        std::uint64_t hash = 0x9e3779b97f4a7c15ull ^ key.surface;
+        for (const float f : key.value) {
+            std::uint32_t bits;
+            std::memcpy(&bits, &f, 4);
+            hash = (hash ^ bits) * 0xff51afd7ed558ccdull;
+            hash ^= hash >> 32;
+        }
+        return hash;
+    }
+};
+
+void add_surface_triangles(const Scene& scene, Mesh& mesh) {
+    const Geometry& geometry = *scene.geometry;
+    std::vector<glm::vec3> plane_normal(geometry.surfaces.size(), glm::vec3(0));
+    for (std::size_t t = 0; t < geometry.triangles.size(); ++t)
+        plane_normal[at(geometry.triangle_surface[t])] += area_vector(geometry, geometry.triangles[t]);
+    for (glm::vec3& n : plane_normal)
+        if (glm::dot(n, n) > 0) n = glm::normalize(n);
+
+    std::unordered_map<WeldKey, std::uint32_t, WeldHash> welded;
+    welded.reserve(geometry.vertices.size());
+    for (std::size_t t = 0; t < geometry.triangles.size(); ++t) {
+        const std::uint32_t s = static_cast<std::uint32_t>(at(geometry.triangle_surface[t]));
+        const bool planar = geometry.surfaces[s].planar;
+        const glm::vec3 flat_normal = planar ? plane_normal[s] : glm::normalize(area_vector(geometry, geometry.triangles[t]));
+        glm::uvec3 corners;
+        for (int k = 0; k < 3; ++k) {
+            const Vertex& v = geometry.vertices[geometry.triangles[t][k]];
+            glm::vec3 normal = planar || v.normal == glm::vec3(0) ? flat_normal : v.normal;
+            if (glm::dot(normal, flat_normal) < 0) normal = -normal; // a file's normal on the wrong side
+            const glm::vec3 p = v.position + 0.0f;                    // -0 becomes 0
+            const WeldKey key{s, {p.x, p.y, p.z, normal.x, normal.y, normal.z, v.uv.x, v.uv.y}};
+            const auto [where, fresh] = welded.try_emplace(key, static_cast<std::uint32_t>(mesh.vertices.size()));
+            if (fresh) mesh.vertices.push_back({v.position, normal, v.uv, s, false, {no_index, no_index}});
+            corners[k] = where->second;
+        }
+        if (corners.x == corners.y || corners.y == corners.z || corners.z == corners.x) continue;
+        mesh.nodes.push_back({corners, static_cast<std::uint32_t>(mesh.nodes.size())});
+        mesh.coarse_surface.push_back(s);
+        mesh.coarse_back.push_back(0);
+    }
+}
+
+void refine_to_size(Mesh& mesh, float size) {
+    Bisection bisection(mesh);
+    const float limit = size * size;
+    for (std::uint32_t n = 0; n < mesh.nodes.size(); ++n) { // grows while it runs: children are looked at in their turn
+        while (mesh.nodes[n].children == no_index) {
+            const int edge = bisection.longest_edge(n);
+            const glm::uvec3 v = mesh.nodes[n].vertices;
+            if (bisection.edge_length(v[edge], v[(edge + 1) % 3]) <= limit) break;
+            bisection.split(n);
+        }
+    }
+}
+
+// Leaves become the coarse elements; what they were cut from is forgotten.
+void make_leaves_coarse(Mesh& mesh) {
+    std::vector<MeshNode> leaves;
+    std::vector<std::uint32_t> surface;
+    for (const MeshNode& node : mesh.nodes) {
+        if (node.children != no_index) continue;
+        surface.push_back(mesh.coarse_surface[node.coarse]);
+        leaves.push_back({node.vertices, static_cast<std::uint32_t>(leaves.size())});
+    }
+    mesh.nodes = std::move(leaves);
+    mesh.coarse_surface = std::move(surface);
+    mesh.coarse_back.assign(mesh.nodes.size(), 0);
+    for (MeshVertex& v : mesh.vertices) v.parents = {no_index, no_index};
+}
+
+void add_back_sides(const Scene& scene, Mesh& mesh) {
+    const std::size_t front_count = mesh.nodes.size();
+    const std::vector<bool> two_sided = two_sided_surfaces(scene);
+    mesh.coarse_twin.assign(front_count, no_index);
+    std::vector<std::uint32_t> back_vertex(mesh.vertices.size(), no_index);
+    const auto back_of = [&](std::uint32_t v) {
+        if (back_vertex[v] == no_index) {
+            back_vertex[v] = static_cast<std::uint32_t>(mesh.vertices.size());
+            MeshVertex copy = mesh.vertices[v];
+            copy.normal = -copy.normal;
+            copy.back = true;
+            mesh.vertices.push_back(copy);
+        }
+        return back_vertex[v];
+    };
+    for (std::uint32_t e = 0; e < front_count; ++e) {
+        if (!two_sided[mesh.coarse_surface[e]]) continue;
+        const glm::uvec3 v = mesh.nodes[e].vertices;
+        const std::uint32_t back = static_cast<std::uint32_t>(mesh.nodes.size());
+        mesh.nodes.push_back({{back_of(v.x), back_of(v.z), back_of(v.y)}, back});
+        mesh.coarse_surface.push_back(mesh.coarse_surface[e]);
+        mesh.coarse_back.push_back(1);
+        mesh.coarse_twin[e] = back;
+        mesh.coarse_twin.push_back(e);
+    }
+}
+
+} // namespace
+
+double automatic_element_size(const Scene& scene) {
+    const Geometry& geometry = *scene.geometry;
+    const std::vector<bool> two_sided = two_sided_surfaces(scene);
+    double area = 0;
+    for (std::size_t t = 0; t < geometry.triangles.size(); ++t)
+        area += glm::length(area_vector(geometry, geometry.triangles[t])) *
+                (two_sided[at(geometry.triangle_surface[t])] ? 2 : 1);
+    // Indirect light is smooth: few receivers do, more where there are more things to be dark between. Bisection of right triangles
+    // down to a longest edge h leaves about 2.8 / h^2 vertices a square metre.
+    const double vertices = 2200 + std::min(0.2 * static_cast<double>(geometry.triangles.size()), 20000.0);
+    return area > 0 ? std::sqrt(2.8 * area / vertices) : 1.0;
+}
+
+Mesh make_mesh(const Scene& scene, const MeshParams& params) {
+    Mesh mesh;
+    add_surface_triangles(scene, mesh);
+    const double size = params.element_size > 0 ? params.element_size : automatic_element_size(scene);
+    refine_to_size(mesh, static_cast<float>(size));
+    make_leaves_coarse(mesh);
+    add_back_sides(scene, mesh);
+    mesh.coarse_vertex_count = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.coarse_element_count = static_cast<std::uint32_t>(mesh.nodes.size());
+    mesh.coarse_area.reserve(mesh.nodes.size());
+    for (const MeshNode& node : mesh.nodes) {
+        const glm::vec3 a = mesh.vertices[node.vertices.x].position;
+        mesh.coarse_area.push_back(0.5f * glm::length(glm::cross(mesh.vertices[node.vertices.y].position - a,
+                                                                 mesh.vertices[node.vertices.z].position - a)));
+    }
+    list_leaves(mesh);
+    return mesh;
+}
+
+Located locate(const Mesh& mesh, std::uint32_t coarse_element, float b1, float b2) {
+    std::uint32_t n = coarse_element;
+    glm::vec3 w(1 - b1 - b2, b1, b2);
+    while (mesh.nodes[n].children != no_index) {
+        const int k = mesh.nodes[n].split_edge;
+        const float a = w[k], b = w[(k + 1) % 3], c = w[(k + 2) % 3];
+        n = mesh.nodes[n].children;
+        if (a >= b) {
+            w = {a - b, 2 * b, c}; // children are {a, middle, c} and {middle, b, c}
+        } else {
+            ++n;
+            w = {2 * a, b - a, c};
+        }
+    }
+    return {mesh.nodes[n].vertices, w};
+}
+
+std::vector<glm::vec3> ray_origins(const Mesh& mesh, float epsilon) {
+    std::vector<glm::vec3> inward(mesh.vertices.size(), glm::vec3(0));
+    std::vector<float> count(mesh.vertices.size(), 0);
+    for (const glm::uvec3& e : mesh.elements) {
+        const glm::vec3 centre =
+            (mesh.vertices[e.x].position + mesh.vertices[e.y].position + mesh.vertices[e.z].position) / 3.0f;
+        for (int k = 0; k < 3; ++k) inward[e[k]] += centre, count[e[k]] += 1;
+    }
+    std::vector<glm::vec3> origins(mesh.vertices.size());
+    for (std::size_t v = 0; v < origins.size(); ++v) {
+        const MeshVertex& vertex = mesh.vertices[v];
+        const glm::vec3 shift = count[v] > 0 ? 0.02f * (inward[v] / count[v] - vertex.position) : glm::vec3(0);
+        // On a curved surface the elements bend away from the tangent plane: stay as far above it as they may be below.
+        const float bend = glm::dot(shift, vertex.normal);
+        origins[v] = vertex.position + shift + (epsilon + std::abs(bend) - bend) * vertex.normal;
+    }
+    return origins;
+}
+
+std::vector<float> vertex_areas(const Mesh& mesh) {
+    std::vector<float> areas(mesh.vertices.size(), 0);
+    for (const glm::uvec3& e : mesh.elements) {
+        const glm::vec3 a = mesh.vertices[e.x].position;
+        const float third =
+            glm::length(glm::cross(mesh.vertices[e.y].position - a, mesh.vertices[e.z].position - a)) / 6;
+        for (int k = 0; k < 3; ++k) areas[e[k]] += third;
+    }
+    return areas;
+}
+
+} // namespace lueur

@@ -1,0 +1,32 @@
+// A parallel loop that can be left and taken up again: long stages stay small steps.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+namespace lueur {
+
+inline constexpr double step_seconds = 0.005;
+
+// Calls f(first, last) for blocks of [cursor, end) in parallel until the end, `step_seconds` are over, or `cancel` is set; moves the cursor
+// past what is done. What is done does not depend on the time. True at the end.
+template <typename F>
+bool run_slice(std::uint32_t& cursor, std::uint32_t end, std::uint32_t block, const std::atomic<bool>& cancel, const F& f) {
+    const auto start = std::chrono::steady_clock::now();
+    while (cursor < end) {
+        if (cancel.load(std::memory_order_relaxed)) return false;
+        const std::uint32_t last = static_cast<std::uint32_t>(std::min<std::uint64_t>(end, std::uint64_t(cursor) + 8 * block));
+        tbb::parallel_for(tbb::blocked_range<std::uint32_t>(cursor, last, block),
+                          [&](const tbb::blocked_range<std::uint32_t>& range) { f(range.begin(), range.end()); });
+        cursor = last;
+        if (std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > step_seconds) break;
+    }
+    return cursor >= end;
+}
+
+} // namespace lueur

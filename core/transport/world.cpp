@@ -1,0 +1,107 @@
+#include "core/transport/world.h"
+
+#include <embree3/rtcore.h>
+
+namespace lueur {
+
+struct World::Embree {
+    RTCDevice device = nullptr;
+    RTCScene scene = nullptr;
+    std::vector<std::uint32_t> element;   // of each Embree triangle: a coarse element
+    std::vector<std::uint32_t> twin;      // its other side
+    std::vector<std::uint32_t> surface;
+    std::vector<glm::vec3> normal;        // not unit; towards the lit side
+    float epsilon = 1e-4f;
+
+    ~Embree() {
+        if (scene) rtcReleaseScene(scene);
+        if (device) rtcReleaseDevice(device);
+    }
+};
+
+World::World(const Mesh& mesh) : embree_(std::make_unique<Embree>()) {
+    Embree& e = *embree_;
+    e.device = rtcNewDevice(nullptr);
+    e.scene = rtcNewScene(e.device);
+    rtcSetSceneFlags(e.scene, RTC_SCENE_FLAG_ROBUST); // no ray slips between two triangles of a wall
+    rtcSetSceneBuildQuality(e.scene, RTC_BUILD_QUALITY_MEDIUM);
+
+    // One triangle stands for both sides.
+    for (std::uint32_t n = 0; n < mesh.coarse_element_count; ++n)
+        if (!mesh.coarse_back[n]) e.element.push_back(n);
+    if (!e.element.empty()) {
+        RTCGeometry geometry = rtcNewGeometry(e.device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        auto* positions = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                                      3 * sizeof(float), mesh.coarse_vertex_count));
+        glm::vec3 low(1e30f), high(-1e30f);
+        for (std::uint32_t v = 0; v < mesh.coarse_vertex_count; ++v) {
+            const glm::vec3 p = mesh.vertices[v].position;
+            for (int k = 0; k < 3; ++k) positions[3 * v + k] = p[k];
+            low = glm::min(low, p), high = glm::max(high, p);
+        }
+        auto* triangles = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                                         3 * sizeof(unsigned), e.element.size()));
+        for (std::size_t t = 0; t < e.element.size(); ++t) {
+            const glm::uvec3 v = mesh.nodes[e.element[t]].vertices;
+            for (int k = 0; k < 3; ++k) triangles[3 * t + k] = v[k];
+            const glm::vec3 a = mesh.vertices[v.x].position;
+            e.normal.push_back(glm::cross(mesh.vertices[v.y].position - a, mesh.vertices[v.z].position - a));
+            e.twin.push_back(mesh.coarse_twin[e.element[t]]);
+            e.surface.push_back(mesh.coarse_surface[e.element[t]]);
+        }
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(e.scene, geometry);
+        rtcReleaseGeometry(geometry);
+        // Large against float rounding of positions, small against any thing in the scene.
+        const float extent = std::max(glm::length(high - low), std::max(glm::length(high), glm::length(low)));
+        e.epsilon = 2e-6f * extent + 1e-9f;
+    }
+    rtcCommitScene(e.scene);
+}
+
+World::~World() = default;
+
+float World::epsilon() const { return embree_->epsilon; }
+
+Hit World::closest(const Ray& ray) const {
+    RTCRayHit query{};
+    query.ray.org_x = ray.origin.x, query.ray.org_y = ray.origin.y, query.ray.org_z = ray.origin.z;
+    query.ray.dir_x = ray.direction.x, query.ray.dir_y = ray.direction.y, query.ray.dir_z = ray.direction.z;
+    query.ray.tnear = ray.t_min;
+    query.ray.tfar = ray.t_max;
+    query.ray.mask = ~0u;
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(embree_->scene, &context, &query);
+    Hit hit;
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
+    const std::uint32_t t = query.hit.primID;
+    hit.t = query.ray.tfar;
+    hit.surface = embree_->surface[t];
+    hit.b1 = query.hit.u, hit.b2 = query.hit.v;
+    if (glm::dot(embree_->normal[t], ray.direction) <= 0) {
+        hit.element = embree_->element[t];
+    } else if (embree_->twin[t] != no_index) {
+        hit.element = embree_->twin[t];
+        std::swap(hit.b1, hit.b2);
+    } else {
+        hit.back_face = true;
+    }
+    return hit;
+}
+
+bool World::occluded(const Ray& ray) const {
+    RTCRay query{};
+    query.org_x = ray.origin.x, query.org_y = ray.origin.y, query.org_z = ray.origin.z;
+    query.dir_x = ray.direction.x, query.dir_y = ray.direction.y, query.dir_z = ray.direction.z;
+    query.tnear = ray.t_min;
+    query.tfar = ray.t_max;
+    query.mask = ~0u;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded1(embree_->scene, &context, &query);
+    return query.tfar < 0;
+}
+
+} // namespace lueur

@@ -1,0 +1,47 @@
+// The scene as rays see it: the only code that sees Embree.
+//
+// Built on the coarse elements of a mesh. Immutable after make_world; all queries may run from any number of threads.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include <glm/glm.hpp>
+
+#include "core/transport/mesh.h"
+
+namespace lueur {
+
+struct Ray {
+    glm::vec3 origin;
+    glm::vec3 direction; // need not be unit; t is in its lengths
+    float t_min = 0, t_max = 1e30f;
+};
+
+struct Hit {
+    std::uint32_t element = no_index; // coarse element whose lit side was hit; no_index: nothing, or the black back of a one-sided surface
+    bool back_face = false;           // met the back of a one-sided surface
+    float t = 1e30f;
+    float b1 = 0, b2 = 0;             // barycentric weights of the element's 2nd and 3rd vertex
+    std::uint32_t surface = no_index; // set also for back faces
+    bool any() const { return surface != no_index; }
+};
+
+class World {
+public:
+    explicit World(const Mesh& mesh);
+    ~World();
+    World(const World&) = delete;
+    World& operator=(const World&) = delete;
+
+    Hit closest(const Ray& ray) const;
+    bool occluded(const Ray& ray) const; // anything between t_min and t_max
+    float epsilon() const;               // m; how far rays start from their surface
+
+private:
+    struct Embree;
+    std::unique_ptr<Embree> embree_;
+};
+
+} // namespace lueur

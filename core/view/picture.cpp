@@ -1,0 +1,108 @@
+#include "core/view/picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+namespace lueur {
+
+namespace {
+
+constexpr int most_back_faces = 64; // culled surfaces a ray looks through
+
+glm::vec3 texel(const TextureImage& image, int x, int y) {
+    const auto wrap = [](int i, int n) { return ((i % n) + n) % n; };
+    return image.rgb[std::size_t(wrap(y, image.height)) * image.width + wrap(x, image.width)];
+}
+
+// Bilinear, repeating, as the window's sampler.
+glm::vec3 sample_texture(const TextureImage& image, glm::vec2 uv) {
+    const float x = uv.x * float(image.width) - 0.5f, y = uv.y * float(image.height) - 0.5f;
+    const float fx = std::floor(x), fy = std::floor(y), tx = x - fx, ty = y - fy;
+    const int ix = static_cast<int>(fx), iy = static_cast<int>(fy);
+    const glm::vec3 top = glm::mix(texel(image, ix, iy), texel(image, ix + 1, iy), tx);
+    const glm::vec3 bottom = glm::mix(texel(image, ix, iy + 1), texel(image, ix + 1, iy + 1), tx);
+    return glm::mix(top, bottom, ty);
+}
+
+} // namespace
+
+// B_pixel = E + (B - E) rho_pixel / rho_mean (lecture, corrections 35), per linear sRGB channel.
+glm::dvec3 textured(const Material& material, glm::vec2 uv, const Xyz& reflected) {
+    if (!material.texture || !material.texture->image || material.texture->image->rgb.empty()) return reflected;
+    static const glm::dmat3 to_rgb = rgb_from_xyz(srgb), to_xyz = xyz_from_rgb(srgb);
+    const glm::dvec3 texel_rgb(sample_texture(*material.texture->image, uv));
+    glm::dvec3 ratio(0);
+    for (int k = 0; k < 3; ++k)
+        if (material.texture->mean[k] > 0) ratio[k] = texel_rgb[k] / material.texture->mean[k];
+    return to_xyz * (ratio * (to_rgb * reflected));
+}
+
+std::optional<FieldPoint> field_along_ray(const FieldView& view, const Ray& original) {
+    if (!view.world || !view.mesh || !view.field) return std::nullopt;
+    Ray ray = original;
+    Hit hit = view.world->closest(ray);
+    for (int k = 0; k < most_back_faces && hit.back_face; ++k) {
+        ray.t_min = hit.t + std::max(view.world->epsilon(), 1e-6f * hit.t);
+        hit = view.world->closest(ray);
+    }
+    if (!hit.any() || hit.back_face) return std::nullopt;
+    const Mesh& mesh = *view.mesh;
+    const Located at_point = locate(mesh, hit.element, hit.b1, hit.b2);
+    FieldPoint point{};
+    point.position = ray.origin + hit.t * ray.direction;
+    point.surface = hit.surface;
+    glm::dvec3 reflected(0), emitted(0);
+    for (int k = 0; k < 3; ++k) {
+        const std::uint32_t v = at_point.vertices[k];
+        const float w = at_point.weights[k];
+        point.normal += w * mesh.vertices[v].normal;
+        point.uv += w * mesh.vertices[v].uv;
+        point.irradiance += double(w) * glm::dvec3(view.field->irradiance_xyz[v]);
+        reflected += double(w) * glm::dvec3(view.field->reflected_xyz[v]);
+        emitted += double(w) * glm::dvec3(view.field->emitted_xyz[v]);
+        point.unshot += w * view.field->unshot[v];
+    }
+    if (glm::dot(point.normal, point.normal) > 0) point.normal = glm::normalize(point.normal);
+    const Scene& scene = *view.scene;
+    const Object& object = scene.objects[at(scene.geometry->surfaces[hit.surface].object)];
+    point.radiance = emitted + textured(scene.materials[at(object.material)], point.uv, reflected);
+    return point;
+}
+
+RadianceImage render_picture(const FieldView& view, const Camera& camera, const PictureParams& params, PictureQuantity quantity,
+                             const std::atomic<bool>& cancel, const std::function<void(double)>& progress) {
+    RadianceImage image{params.width, params.height, {}};
+    image.xyz.assign(std::size_t(params.width) * params.height, glm::vec3(0));
+    const double aspect = double(params.width) / params.height;
+    const int n = std::max(1, params.samples_per_axis);
+    // XYZ of a grey whose Y is 1: the picture of a single number.
+    const glm::dvec3 grey = xyz_from_rgb(srgb) * glm::dvec3(1);
+    constexpr int rows_at_once = 16;
+    for (int first = 0; first < params.height; first += rows_at_once) {
+        if (cancel.load(std::memory_order_relaxed)) return {};
+        tbb::parallel_for(first, std::min(first + rows_at_once, params.height), [&](int y) {
+            for (int x = 0; x < params.width; ++x) {
+                glm::dvec3 sum(0);
+                for (int s = 0; s < n * n; ++s) {
+                    const double u = (x + (s % n + 0.5) / n) / params.width, v = (y + (s / n + 0.5) / n) / params.height;
+                    const auto point = field_along_ray(view, camera_ray(camera, aspect, u, v));
+                    if (!point) continue;
+                    switch (quantity) {
+                    case PictureQuantity::colour: sum += point->radiance; break;
+                    case PictureQuantity::luminance: sum += point->radiance.y * grey; break;
+                    case PictureQuantity::illuminance: sum += point->irradiance.y * grey; break;
+                    }
+                }
+                image.xyz[std::size_t(y) * params.width + x] = glm::vec3(sum / double(n * n));
+            }
+        });
+        if (progress) progress(double(std::min(first + rows_at_once, params.height)) / params.height);
+    }
+    return image;
+}
+
+} // namespace lueur

@@ -1,0 +1,54 @@
+// A picture of a field from a camera, by ray casting: the radiance that leaves the seen surface towards the eye.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "core/display/display.h"
+#include "core/scene/scene.h"
+#include "core/solve/field.h"
+#include "core/transport/mesh.h"
+#include "core/transport/world.h"
+
+namespace lueur {
+
+// All that is needed to look at a solution; immutable, any thread.
+struct FieldView {
+    std::shared_ptr<const Scene> scene;
+    std::shared_ptr<const Mesh> mesh;
+    std::shared_ptr<const World> world;
+    std::shared_ptr<const Field> field;
+};
+
+struct FieldPoint { // the field where a ray meets the scene
+    glm::vec3 position, normal;
+    glm::vec2 uv;
+    std::uint32_t surface;
+    bool back_face;
+    Xyz irradiance, radiance; // lx and cd m^-2 in Y; radiance with texture and emission
+    float unshot;
+};
+// Reflected radiance with the texture of a material put on it: reflected * texel / mean, per linear sRGB channel.
+glm::dvec3 textured(const Material& material, glm::vec2 uv, const Xyz& reflected);
+
+std::optional<FieldPoint> field_along_ray(const FieldView& view, const Ray& ray);
+
+struct PictureParams {
+    int width = 1280, height = 800;
+    int samples_per_axis = 3; // of a pixel: 3 -> 9 rays
+};
+
+enum class PictureQuantity { colour, luminance, illuminance }; // the last two: grey pictures of Y in cd m^-2, lx
+
+// Progress goes from 0 to 1. Cancelled: an empty picture.
+RadianceImage render_picture(const FieldView& view, const Camera& camera, const PictureParams& params, PictureQuantity quantity,
+                             const std::atomic<bool>& cancel, const std::function<void(double)>& progress = {});
+
+// The ray through image coordinates (x, y) in 0..1 from the top left, for a picture of that width/height ratio. Direction is unit.
+Ray camera_ray(const Camera& camera, double aspect, double x, double y);
+// The same camera for OpenGL: clip_from_world, near and far in metres.
+glm::dmat4 clip_from_world(const Camera& camera, double aspect, double near_plane, double far_plane);
+
+} // namespace lueur

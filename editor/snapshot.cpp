@@ -1,0 +1,31 @@
+#include "editor/snapshot.h"
+
+#include "core/scene/luminaire.h"
+#include "core/spectrum/colour.h"
+#include "core/view/picture.h"
+
+namespace lueur {
+
+std::optional<Probe> probe(const Snapshot& snapshot, glm::vec3 origin, glm::vec3 direction) {
+    if (!snapshot.scene || !snapshot.mesh || !snapshot.world || !snapshot.field) return {};
+    const FieldView view{snapshot.scene, snapshot.mesh, snapshot.world, snapshot.field};
+    const auto point = field_along_ray(view, Ray{origin, direction});
+    if (!point) return {};
+
+    const Scene& scene = *snapshot.scene;
+    if (point->surface >= scene.geometry->surfaces.size()) return {};
+    Probe result;
+    result.position = point->position;
+    result.normal = point->normal;
+    result.surface = SurfaceIndex(point->surface);
+    result.object = scene.geometry->surfaces[point->surface].object;
+    result.material = scene.objects[at(result.object)].material;
+    result.luminaire = luminaire_of_objects(scene)[at(result.object)];
+    result.irradiance = point->irradiance;
+    result.radiance = point->radiance;
+    result.rgb = rgb_from_xyz(srgb) * point->radiance;
+    result.unshot = point->unshot;
+    return result;
+}
+
+} // namespace lueur

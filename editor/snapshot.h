@@ -1,0 +1,47 @@
+// What the worker shows the world: an immutable picture of the solution so far. Read it from any thread.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "core/scene/scene.h"
+#include "core/solve/field.h"
+#include "core/solve/status.h"
+#include "core/transport/mesh.h"
+
+namespace lueur {
+
+class World; // core/transport/world.h
+
+struct Snapshot {
+    std::uint64_t revision = 0;          // grows with each publication
+    std::uint64_t document_revision = 0; // of the document it belongs to
+    std::shared_ptr<const Scene> scene;
+    std::shared_ptr<const Mesh> mesh;    // null before the first mesh; the same pointer while it has not changed
+    std::shared_ptr<const World> world;
+    std::shared_ptr<const Field> field;
+    SolveStatus status;
+    std::vector<ConvergencePoint> history;
+};
+
+// What is under a ray: surface, position and light.
+struct Probe {
+    glm::vec3 position{0}, normal{0}; // m
+    SurfaceIndex surface{};
+    ObjectIndex object{};
+    MaterialIndex material{};
+    std::optional<LuminaireIndex> luminaire;
+    Xyz irradiance{0}; // Y in lx
+    Xyz radiance{0};   // towards the eye, Y in cd m^-2; textures included
+    Rgb rgb{0};        // linear sRGB of the radiance, cd m^-2
+    float unshot = 0;
+};
+
+std::optional<Probe> probe(const Snapshot& snapshot, glm::vec3 origin, glm::vec3 direction);
+
+} // namespace lueur

@@ -1,0 +1,240 @@
+#include "editor/worker.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include <tbb/task_arena.h>
+
+#include "core/solve/solution.h"
+
+namespace lueur {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t most_history = 2000; // points of the convergence plot; thinned to half when full
+
+SolveFrom solve_from(Stage stage) {
+    switch (stage) {
+    case Stage::mesh:
+    case Stage::transport: return SolveFrom::mesh;
+    case Stage::sources: return SolveFrom::sources;
+    case Stage::reflectance: return SolveFrom::reflectance;
+    case Stage::view:
+    case Stage::display:
+    case Stage::nothing: return SolveFrom::nothing;
+    }
+    return SolveFrom::mesh;
+}
+
+int worker_threads(int wanted) {
+    if (wanted > 0) return wanted;
+    return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1);
+}
+
+} // namespace
+
+struct Worker::State {
+    explicit State(WorkerParams p) : params(std::move(p)), arena(worker_threads(params.threads)) {}
+
+    const WorkerParams params;
+    tbb::task_arena arena;
+    std::thread thread;
+
+    mutable std::mutex mutex;
+    std::condition_variable work;              // something to do for the worker
+    mutable std::condition_variable published; // a new snapshot for those who wait
+
+    // Under the mutex.
+    bool quit = false, paused = false, restart = false;
+    int steps = 0;
+    std::shared_ptr<const Scene> pending_scene;
+    std::uint64_t pending_revision = 0;
+    Stage pending_stage = Stage::nothing;
+    std::shared_ptr<const Snapshot> snapshot = std::make_shared<Snapshot>();
+
+    std::atomic<bool> cancel{false}; // what runs now is stale
+
+    // The worker's own.
+    std::unique_ptr<Solution> solution;
+    std::uint64_t document_revision = 0, snapshot_revision = 0;
+    std::vector<ConvergencePoint> history;
+    Clock::time_point last_publication{};
+
+    bool has_request() const { return pending_scene || restart; }
+
+    void run();
+    void take_requests(std::unique_lock<std::mutex>& lock);
+    void publish(bool is_paused);
+    void note_history();
+};
+
+void Worker::State::note_history() {
+    const SolveStatus& s = solution->status();
+    if (!history.empty() && history.back().seconds >= s.seconds) return;
+    if (history.size() >= most_history) {
+        for (std::size_t k = 0; 2 * k < history.size(); ++k) history[k] = history[2 * k];
+        history.resize(history.size() / 2);
+    }
+    history.push_back({s.seconds, s.unshot_share, s.estimated_error});
+}
+
+// Applies what was submitted since the last look; called and left with the lock held.
+void Worker::State::take_requests(std::unique_lock<std::mutex>& lock) {
+    const std::shared_ptr<const Scene> scene = std::exchange(pending_scene, nullptr);
+    const Stage stage = std::exchange(pending_stage, Stage::nothing);
+    const bool from_black = std::exchange(restart, false);
+    if (scene) document_revision = pending_revision;
+    cancel.store(false);
+    lock.unlock();
+    if (scene && !solution) solution = std::make_unique<Solution>(scene);
+    else if (scene) solution->update(scene, solve_from(stage));
+    if (from_black && solution) solution->update(solution->scene(), SolveFrom::black);
+    if (from_black || solve_from(stage) != SolveFrom::nothing) history.clear();
+    lock.lock();
+}
+
+void Worker::State::publish(bool is_paused) {
+    auto next = std::make_shared<Snapshot>();
+    next->revision = ++snapshot_revision;
+    next->document_revision = document_revision;
+    next->scene = solution->scene();
+    next->mesh = solution->mesh();
+    next->world = solution->world();
+    next->field = solution->field();
+    next->status = solution->status();
+    next->status.paused = is_paused;
+    next->history = history;
+    {
+        const std::lock_guard lock(mutex);
+        snapshot = std::move(next);
+    }
+    published.notify_all();
+    last_publication = Clock::now();
+    if (params.wake) params.wake();
+}
+
+void Worker::State::run() {
+    bool unpublished = false;
+    std::unique_lock lock(mutex);
+    while (true) {
+        const bool finished = !solution || solution->status().settled || solution->status().stage == SolveStage::failed;
+        const bool may_run = !finished && (!paused || steps > 0);
+        if (!quit && !has_request() && !may_run) {
+            if (unpublished) {
+                const bool is_paused = paused;
+                lock.unlock();
+                publish(is_paused);
+                unpublished = false;
+                lock.lock();
+                continue; // something may have come in meanwhile
+            }
+            work.wait(lock);
+            continue;
+        }
+        if (quit) return;
+        if (has_request()) {
+            take_requests(lock);
+            unpublished = true;
+            continue;
+        }
+        const bool single = paused;
+        if (single) --steps;
+        const bool is_paused = paused;
+        lock.unlock();
+        const std::uint32_t sweeps = solution->status().sweeps, shots = solution->status().shots;
+        const SolveStage stage_before = solution->status().stage;
+        do {
+            solution->step(cancel);
+            // A single step shows something new: a sweep, a shot or the end of a stage.
+        } while (single && !cancel.load() && !solution->status().settled && solution->status().stage != SolveStage::failed &&
+                 solution->status().sweeps == sweeps && solution->status().shots == shots &&
+                 solution->status().stage == stage_before);
+        note_history();
+        unpublished = true;
+        const double since = std::chrono::duration<double>(Clock::now() - last_publication).count();
+        if (!cancel.load() && solution->mesh() && (single || since > params.publish_interval)) {
+            publish(is_paused);
+            unpublished = false;
+        }
+        lock.lock();
+    }
+}
+
+Worker::Worker(WorkerParams params) : state_(std::make_unique<State>(std::move(params))) {
+    state_->thread = std::thread([state = state_.get()] { state->arena.execute([state] { state->run(); }); });
+}
+
+Worker::~Worker() {
+    {
+        const std::lock_guard lock(state_->mutex);
+        state_->quit = true;
+        state_->cancel.store(true);
+    }
+    state_->work.notify_all();
+    state_->thread.join();
+}
+
+void Worker::submit(std::shared_ptr<const Scene> scene, std::uint64_t document_revision, Stage stale) {
+    {
+        const std::lock_guard lock(state_->mutex);
+        State& s = *state_;
+        s.pending_stage = s.pending_scene ? std::min(s.pending_stage, stale) : stale;
+        s.pending_scene = std::move(scene);
+        s.pending_revision = document_revision;
+        if (solve_from(stale) != SolveFrom::nothing) s.cancel.store(true);
+    }
+    state_->work.notify_all();
+}
+
+void Worker::set_paused(bool paused) {
+    {
+        const std::lock_guard lock(state_->mutex);
+        state_->paused = paused;
+        state_->steps = 0;
+        if (state_->snapshot->scene) {
+            auto next = std::make_shared<Snapshot>(*state_->snapshot);
+            next->status.paused = paused;
+            state_->snapshot = std::move(next);
+        }
+    }
+    state_->work.notify_all();
+}
+
+void Worker::step() {
+    {
+        const std::lock_guard lock(state_->mutex);
+        if (state_->paused) ++state_->steps;
+    }
+    state_->work.notify_all();
+}
+
+void Worker::restart() {
+    {
+        const std::lock_guard lock(state_->mutex);
+        state_->restart = true;
+        state_->cancel.store(true);
+    }
+    state_->work.notify_all();
+}
+
+std::shared_ptr<const Snapshot> Worker::latest() const {
+    const std::lock_guard lock(state_->mutex);
+    return state_->snapshot;
+}
+
+bool Worker::wait_settled(std::uint64_t document_revision, double seconds) const {
+    std::unique_lock lock(state_->mutex);
+    return state_->published.wait_for(lock, std::chrono::duration<double>(seconds), [&] {
+        const Snapshot& s = *state_->snapshot;
+        return s.document_revision >= document_revision && (s.status.settled || s.status.stage == SolveStage::failed);
+    });
+}
+
+} // namespace lueur

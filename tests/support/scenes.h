@@ -1,0 +1,116 @@
+// Scenes made in code, for tests that know the answer.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/scene/scene.h"
+#include "core/scene/surfaces.h"
+#include "core/solve/solution.h"
+
+namespace lueur::test {
+
+class SceneBuilder {
+public:
+    MaterialIndex material(const std::string& name, Reflectance reflectance, bool two_sided = false) {
+        scene_.materials.push_back({name, reflectance, std::nullopt, two_sided});
+        return MaterialIndex(scene_.materials.size() - 1);
+    }
+    // Counter-clockwise from the front, convex.
+    ObjectIndex polygon(const std::string& name, MaterialIndex material, const std::vector<glm::vec3>& corners) {
+        const ObjectIndex object = object_named(name, material);
+        const std::uint32_t first = static_cast<std::uint32_t>(soup_.vertices.size());
+        for (const glm::vec3& c : corners) soup_.vertices.push_back({c, glm::vec3(0), glm::vec2(c.x, c.y)});
+        for (std::uint32_t k = 2; k < corners.size(); ++k) {
+            soup_.triangles.push_back({first, first + k - 1, first + k});
+            soup_.triangle_object.push_back(object);
+        }
+        return object;
+    }
+    // Axis-aligned box; inward: a room, each face its own object "name floor", ...; else one solid object.
+    std::array<ObjectIndex, 6> room(const std::string& name, std::array<MaterialIndex, 6> materials, glm::vec3 low, glm::vec3 high) {
+        std::array<ObjectIndex, 6> faces{};
+        static const char* names[6] = {"floor", "ceiling", "left", "right", "front", "back"};
+        for (int f = 0; f < 6; ++f) faces[f] = polygon(name + " " + names[f], materials[f], face(f, low, high, true));
+        return faces;
+    }
+    ObjectIndex block(const std::string& name, MaterialIndex material, glm::vec3 low, glm::vec3 high) {
+        ObjectIndex object{};
+        for (int f = 0; f < 6; ++f) object = polygon(name, material, face(f, low, high, false));
+        return object;
+    }
+    LuminaireIndex light(const std::string& name, std::vector<ObjectIndex> objects, PowerUnit unit, double power,
+                         EmissionSpectrum spectrum = Flat{}, EmitSide side = EmitSide::front) {
+        scene_.luminaires.push_back({name, std::move(objects), std::move(spectrum), unit, power, 1.0, side});
+        return LuminaireIndex(scene_.luminaires.size() - 1);
+    }
+    Scene build() {
+        std::vector<std::string> warnings;
+        scene_.geometry = std::make_shared<Geometry>(make_geometry(soup_, scene_.objects, warnings));
+        return scene_;
+    }
+    Scene& settings() { return scene_; }
+
+private:
+    ObjectIndex object_named(const std::string& name, MaterialIndex material) {
+        for (std::size_t o = 0; o < scene_.objects.size(); ++o)
+            if (scene_.objects[o].name == name) return ObjectIndex(o);
+        scene_.objects.push_back({name, material});
+        return ObjectIndex(scene_.objects.size() - 1);
+    }
+    // floor y-, ceiling y+, left x-, right x+, front z-, back z+.
+    static std::vector<glm::vec3> face(int f, glm::vec3 a, glm::vec3 b, bool inward) {
+        std::vector<glm::vec3> v;
+        switch (f) {
+        case 0: v = {{a.x, a.y, a.z}, {a.x, a.y, b.z}, {b.x, a.y, b.z}, {b.x, a.y, a.z}}; break;
+        case 1: v = {{a.x, b.y, a.z}, {b.x, b.y, a.z}, {b.x, b.y, b.z}, {a.x, b.y, b.z}}; break;
+        case 2: v = {{a.x, a.y, a.z}, {a.x, b.y, a.z}, {a.x, b.y, b.z}, {a.x, a.y, b.z}}; break;
+        case 3: v = {{b.x, a.y, a.z}, {b.x, a.y, b.z}, {b.x, b.y, b.z}, {b.x, b.y, a.z}}; break;
+        case 4: v = {{a.x, a.y, a.z}, {b.x, a.y, a.z}, {b.x, b.y, a.z}, {a.x, b.y, a.z}}; break;
+        default: v = {{a.x, a.y, b.z}, {a.x, b.y, b.z}, {b.x, b.y, b.z}, {b.x, a.y, b.z}}; break;
+        }
+        if (!inward) std::swap(v[1], v[3]);
+        return v;
+    }
+    Scene scene_;
+    TriangleSoup soup_;
+};
+
+inline std::array<MaterialIndex, 6> all(MaterialIndex m) { return {m, m, m, m, m, m}; }
+
+// Unit cube whose six faces all have exitance 1 W/m2 and reflectance rho: B = 1 / (1 - rho) everywhere.
+inline Scene furnace(double rho) {
+    SceneBuilder b;
+    const auto faces = b.room("furnace", all(b.material("wall", rho)), glm::vec3(0), glm::vec3(1));
+    b.light("wall", {faces.begin(), faces.end()}, PowerUnit::exitance, 1);
+    return b.build();
+}
+
+// A closed room with a red and a green wall, a block on its floor and two lamps under the ceiling.
+inline Scene small_room() {
+    SceneBuilder b;
+    const MaterialIndex white = b.material("white", 0.75), red = b.material("red", Rgb(0.6, 0.06, 0.05)),
+                        green = b.material("green", Rgb(0.1, 0.4, 0.1)), grey = b.material("grey", 0.4);
+    b.room("room", {white, white, red, green, white, white}, glm::vec3(0), glm::vec3(3, 2.5f, 4));
+    b.block("block", grey, {1, 0, 1.5f}, {1.8f, 0.9f, 2.3f});
+    const ObjectIndex lamp = b.polygon("lamp", grey, {{1, 2.45f, 1}, {1.6f, 2.45f, 1}, {1.6f, 2.45f, 1.4f}, {1, 2.45f, 1.4f}});
+    const ObjectIndex spot = b.polygon("spot", grey, {{2.4f, 2.4f, 3}, {2.5f, 2.4f, 3}, {2.5f, 2.4f, 3.1f}, {2.4f, 2.4f, 3.1f}});
+    b.light("lamp", {lamp}, PowerUnit::lumen, 3000, Blackbody{2700});
+    b.light("spot", {spot}, PowerUnit::lumen, 800, Blackbody{5000});
+    return b.build();
+}
+
+inline void settle(Solution& solution) {
+    const std::atomic<bool> never{false};
+    while (solution.step(never)) {}
+}
+
+inline Solution solved(Scene scene) {
+    Solution solution(std::make_shared<const Scene>(std::move(scene)));
+    settle(solution);
+    return solution;
+}
+
+} // namespace lueur::test

@@ -1,0 +1,419 @@
+#include "ui/renderer.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+
+#include <glm/gtc/matrix_access.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+#include "core/spectrum/colour.h"
+#include "core/view/picture.h"
+#include "ui/false_colour.h"
+#include "ui/swatch.h"
+#include "ui/theme.h"
+
+namespace lueur {
+namespace {
+
+constexpr const char* mesh_vertex_shader =
+#include "ui/shaders/mesh.vert.glsl"
+    ;
+constexpr const char* mesh_geometry_shader =
+#include "ui/shaders/mesh.geom.glsl"
+    ;
+constexpr const char* mesh_fragment_shader =
+#include "ui/shaders/mesh.frag.glsl"
+    ;
+constexpr const char* screen_vertex_shader =
+#include "ui/shaders/screen.vert.glsl"
+    ;
+constexpr const char* display_fragment_shader =
+#include "ui/shaders/display.frag.glsl"
+    ;
+
+template <typename Vector>
+void fill(GLenum target, GLuint buffer, const Vector& values, GLenum usage) {
+    glBindBuffer(target, buffer);
+    glBufferData(target, static_cast<GLsizeiptr>(values.size() * sizeof(values[0])), values.data(), usage);
+}
+
+GLint place(GLuint program, const char* name) { return glGetUniformLocation(program, name); }
+
+glm::mat3 srgb_matrix() { return rgb_from_xyz(srgb); }
+
+// What the mesh pass shows; all else is the display pass's business.
+bool same_mesh_pass(const RenderParams& a, const RenderParams& b) {
+    return a.width == b.width && a.height == b.height && a.samples == b.samples && a.camera == b.camera && a.view == b.view &&
+           a.selected == b.selected && a.highlight_shooting == b.highlight_shooting && a.line_width == b.line_width;
+}
+
+double seconds_now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+} // namespace
+
+std::expected<std::unique_ptr<Renderer>, std::string> Renderer::make() {
+    std::unique_ptr<Renderer> renderer(new Renderer);
+    const auto build = [](GlProgram& program, const char* defines, const char* vertex, const char* geometry,
+                          const char* fragment) -> std::string {
+        auto made = make_program(defines, vertex, geometry, fragment);
+        if (!made) return made.error();
+        program = std::move(*made);
+        return {};
+    };
+    std::string complaint = build(renderer->surfaces_, "", mesh_vertex_shader, "", mesh_fragment_shader);
+    complaint += build(renderer->lines_, "#define LINES\n", mesh_vertex_shader, mesh_geometry_shader, mesh_fragment_shader);
+    complaint += build(renderer->display_one_, "#define SAMPLES 1\n", screen_vertex_shader, "", display_fragment_shader);
+    complaint += build(renderer->display_many_, "#define SAMPLES 4\n", screen_vertex_shader, "", display_fragment_shader);
+    if (!complaint.empty()) return std::unexpected("a shader does not compile: " + complaint);
+
+    auto& r = *renderer;
+    r.vertex_array_ = new_vertex_array();
+    r.no_vertices_ = new_vertex_array();
+    for (GlBuffer* buffer :
+         {&r.positions_, &r.uvs_, &r.objects_, &r.reflected_, &r.emitted_, &r.unshot_, &r.elements_, &r.coarse_})
+        *buffer = new_buffer();
+    glBindVertexArray(r.vertex_array_);
+    const auto attribute = [](GLuint index, GLuint buffer, GLint components) {
+        glBindBuffer(GL_ARRAY_BUFFER, buffer);
+        glVertexAttribPointer(index, components, GL_FLOAT, GL_FALSE, 0, nullptr);
+        glEnableVertexAttribArray(index);
+    };
+    attribute(0, r.positions_, 3);
+    attribute(1, r.uvs_, 2);
+    glBindBuffer(GL_ARRAY_BUFFER, r.objects_);
+    glVertexAttribIPointer(2, 1, GL_UNSIGNED_INT, 0, nullptr);
+    glEnableVertexAttribArray(2);
+    attribute(3, r.reflected_, 3);
+    attribute(4, r.emitted_, 3);
+    attribute(5, r.unshot_, 1);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, r.elements_);
+    glBindVertexArray(0);
+    r.coarse_texture_ = new_texture();
+    return renderer;
+}
+
+void Renderer::set_snapshot(const Snapshot& snapshot) {
+    const bool new_mesh = snapshot.mesh != mesh_;
+    if (!snapshot.mesh || !snapshot.scene || !snapshot.field) {
+        if (mesh_) stale_ = true;
+        mesh_.reset();
+        field_.reset();
+        scene_.reset();
+        batches_.clear();
+        surface_images_.clear();
+        return;
+    }
+    if (new_mesh) {
+        mesh_ = snapshot.mesh;
+        bounds_ = bounds_of(*snapshot.scene->geometry);
+        upload_mesh(*mesh_, *snapshot.scene);
+        surface_images_.clear();
+        stale_ = true;
+    }
+    if (new_mesh || snapshot.scene != scene_) {
+        scene_ = snapshot.scene;
+        upload_elements(*mesh_, *scene_);
+    }
+    if (new_mesh || snapshot.field != field_) {
+        field_ = snapshot.field;
+        upload_field(*field_);
+        stale_ = true;
+    }
+    if (snapshot.status.shooting_element != shooting_) {
+        shooting_ = snapshot.status.shooting_element;
+        stale_ = true;
+    }
+}
+
+void Renderer::upload_mesh(const Mesh& mesh, const Scene& scene) {
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec2> uvs;
+    std::vector<std::uint32_t> objects;
+    positions.reserve(mesh.vertices.size());
+    for (const auto& vertex : mesh.vertices) {
+        positions.push_back(vertex.position);
+        uvs.push_back(vertex.uv);
+        objects.push_back(static_cast<std::uint32_t>(scene.geometry->surfaces[vertex.surface].object));
+    }
+    fill(GL_ARRAY_BUFFER, positions_, positions, GL_STATIC_DRAW);
+    fill(GL_ARRAY_BUFFER, uvs_, uvs, GL_STATIC_DRAW);
+    fill(GL_ARRAY_BUFFER, objects_, objects, GL_STATIC_DRAW);
+}
+
+// Elements in batches of one texture. Runs when the mesh or the textures of its surfaces have changed.
+void Renderer::upload_elements(const Mesh& mesh, const Scene& scene) {
+    std::vector<std::shared_ptr<const TextureImage>> images;
+    std::vector<MaterialIndex> materials;
+    for (const auto& surface : scene.geometry->surfaces) {
+        const auto material = scene.objects[at(surface.object)].material;
+        const auto& texture = scene.materials[at(material)].texture;
+        images.push_back(texture ? texture->image : nullptr);
+        materials.push_back(material);
+    }
+    if (!surface_images_.empty() && images == surface_images_ && materials == surface_materials_) return;
+    surface_images_ = std::move(images);
+    surface_materials_ = std::move(materials);
+    stale_ = true;
+
+    // Only textured materials need a batch of their own; their order is that of the scene.
+    const auto key = [&](std::uint32_t element) {
+        const auto surface = mesh.element_surface[element];
+        return surface_images_[surface] ? at(surface_materials_[surface]) + 1 : 0;
+    };
+    std::vector<std::uint32_t> order(mesh.elements.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::ranges::stable_sort(order, {}, key);
+
+    std::vector<glm::uvec3> elements;
+    std::vector<std::uint32_t> coarse;
+    elements.reserve(order.size());
+    batches_.clear();
+    std::size_t present = 0;
+    for (const auto element : order) {
+        if (batches_.empty() || key(element) != present) {
+            present = key(element);
+            const auto surface = mesh.element_surface[element];
+            batches_.push_back({surface_images_[surface].get(), surface_materials_[surface], elements.size(), 0});
+        }
+        ++batches_.back().count;
+        elements.push_back(mesh.elements[element]);
+        coarse.push_back(mesh.element_coarse[element]);
+    }
+    glBindVertexArray(vertex_array_);
+    fill(GL_ELEMENT_ARRAY_BUFFER, elements_, elements, GL_STATIC_DRAW);
+    glBindVertexArray(0);
+    fill(GL_TEXTURE_BUFFER, coarse_, coarse, GL_STATIC_DRAW);
+    glBindTexture(GL_TEXTURE_BUFFER, coarse_texture_);
+    glTexBuffer(GL_TEXTURE_BUFFER, GL_R32UI, coarse_);
+
+    std::map<const TextureImage*, GlTexture> textures;
+    for (const auto& batch : batches_) {
+        if (!batch.image || textures.contains(batch.image)) continue;
+        if (auto known = textures_.extract(batch.image)) {
+            textures.insert(std::move(known));
+            continue;
+        }
+        auto texture = new_texture();
+        glBindTexture(GL_TEXTURE_2D, texture);
+        glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB16F, batch.image->width, batch.image->height, 0, GL_RGB, GL_FLOAT,
+                     batch.image->rgb.data());
+        glGenerateMipmap(GL_TEXTURE_2D);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+        textures.emplace(batch.image, std::move(texture));
+    }
+    textures_ = std::move(textures);
+}
+
+void Renderer::upload_field(const Field& field) {
+    fill(GL_ARRAY_BUFFER, reflected_, field.reflected_xyz, GL_STREAM_DRAW);
+    fill(GL_ARRAY_BUFFER, emitted_, field.emitted_xyz, GL_STREAM_DRAW);
+    fill(GL_ARRAY_BUFFER, unshot_, field.unshot, GL_STREAM_DRAW);
+}
+
+void Renderer::make_target(int width, int height, int samples) {
+    target_ = &targets_[samples > 1 ? 1 : 0];
+    if (target_->width == width && target_->height == height) return;
+    *target_ = {};
+    target_->width = width;
+    target_->height = height;
+    target_->samples = samples;
+    const GLenum kind = samples > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;
+    const auto attach = [&](GlTexture& texture, GLenum format, GLenum layout, GLenum type, GLenum point) {
+        texture = new_texture();
+        glBindTexture(kind, texture);
+        if (samples > 1)
+            glTexImage2DMultisample(kind, samples, format, width, height, GL_TRUE);
+        else {
+            glTexImage2D(kind, 0, static_cast<GLint>(format), width, height, 0, layout, type, nullptr);
+            glTexParameteri(kind, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+            glTexParameteri(kind, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+        }
+        glFramebufferTexture2D(GL_FRAMEBUFFER, point, kind, texture, 0);
+    };
+    target_->mesh_pass = new_framebuffer();
+    glBindFramebuffer(GL_FRAMEBUFFER, target_->mesh_pass);
+    attach(target_->seen, GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, GL_COLOR_ATTACHMENT0);
+    attach(target_->depth, GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, GL_DEPTH_ATTACHMENT);
+
+    target_->display_pass = new_framebuffer();
+    glBindFramebuffer(GL_FRAMEBUFFER, target_->display_pass);
+    target_->shown = new_texture();
+    glBindTexture(GL_TEXTURE_2D, target_->shown);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target_->shown, 0);
+    stale_ = true;
+}
+
+GLuint Renderer::draw(const RenderParams& params) {
+    drew_mesh_ = false;
+    make_target(params.width, params.height, params.samples);
+    const double asked = params.display.max_display;
+    // Halves hold a hundred thousand steps of brightness: another MAXDISPLAY needs a new mesh pass only when it is far off.
+    const bool far_off = !(asked / drawn_max_display_ < 16 && drawn_max_display_ / asked < 16);
+    if (stale_ || far_off || !mesh_drawn_ || !same_mesh_pass(*mesh_drawn_, params)) {
+        const double start = seconds_now();
+        draw_mesh(params, asked);
+        drawn_max_display_ = asked;
+        mesh_drawn_ = params;
+        display_drawn_.reset();
+        glFinish(); // the time is worth having: it decides how many samples the next frame gets
+        mesh_seconds_ = seconds_now() - start;
+        (params.samples > 1 ? seconds_of_many_ : seconds_of_one_) = mesh_seconds_;
+        drew_mesh_ = true;
+        stale_ = false;
+        largest_seen_ = -1;
+    }
+    double max_display = asked;
+    if (params.display.clip == ClipRule::scale_all) {
+        if (largest_seen_ < 0) largest_seen_ = largest_component_seen();
+        max_display = std::max(asked, largest_seen_);
+    }
+    if (!display_drawn_ || !(display_drawn_->display == params.display) || display_drawn_->unshot_top != params.unshot_top) {
+        draw_display(params, max_display);
+        display_drawn_ = params;
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    return target_->shown;
+}
+
+bool Renderer::many_samples_are_cheap() const {
+    constexpr double budget = 0.018; // s of a frame
+    if (seconds_of_many_ > 0 && seconds_of_one_ > 0) // what was slow once may be quick with another scene or size
+        return std::min(seconds_of_many_, 3 * seconds_of_one_) < budget;
+    return seconds_of_many_ > 0 ? seconds_of_many_ < budget : seconds_of_one_ < budget / 3;
+}
+
+void Renderer::draw_mesh(const RenderParams& params, double max_display) {
+    glBindFramebuffer(GL_FRAMEBUFFER, target_->mesh_pass);
+    glViewport(0, 0, params.width, params.height);
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_BLEND);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDepthMask(GL_TRUE);
+    glClearColor(0, 0, 0, 0);
+    glClearDepth(1);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    if (!mesh_ || !scene_) return;
+    if (params.samples > 1) glEnable(GL_MULTISAMPLE);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LESS);
+    glEnable(GL_CULL_FACE); // walls are seen from their lit side only, so that one looks into a room from outside
+    glCullFace(GL_BACK);
+    glFrontFace(params.camera.mirrored ? GL_CW : GL_CCW);
+
+    const bool with_lines = params.view == ViewMode::elements;
+    const GLuint program = with_lines ? lines_ : surfaces_;
+    glUseProgram(program);
+    const double aspect = static_cast<double>(params.width) / params.height;
+    const auto range = depth_range(params.camera, bounds_);
+    const glm::mat4 clip = clip_from_world(params.camera, aspect, range.near_plane, range.far_plane);
+    glUniformMatrix4fv(place(program, "clip_from_world"), 1, GL_FALSE, glm::value_ptr(clip));
+    glUniform1ui(place(program, "selected_object"), params.selected ? static_cast<GLuint>(*params.selected) : no_index);
+    glUniformMatrix3fv(place(program, "rgb_from_xyz"), 1, GL_FALSE, glm::value_ptr(srgb_matrix()));
+    glUniform1f(place(program, "scale"), static_cast<float>(1 / max_display));
+    glUniform1i(place(program, "show_unshot"), params.view == ViewMode::unshot);
+    glUniform1i(place(program, "highlight"), params.highlight_shooting && shooting_ != no_index);
+    glUniform1ui(place(program, "highlighted"), shooting_);
+    const auto accent = decoded({colours::accent.x, colours::accent.y, colours::accent.z});
+    glUniform3f(place(program, "highlight_rgb"), static_cast<float>(accent.r), static_cast<float>(accent.g),
+                static_cast<float>(accent.b));
+    if (with_lines) {
+        glUniform2f(place(program, "viewport_size"), static_cast<float>(params.width), static_cast<float>(params.height));
+        glUniform1f(place(program, "line_width"), params.line_width);
+    }
+    glUniform1i(place(program, "texels"), 0);
+    glUniform1i(place(program, "coarse_elements"), 1);
+    glActiveTexture(GL_TEXTURE1);
+    glBindTexture(GL_TEXTURE_BUFFER, coarse_texture_);
+    glActiveTexture(GL_TEXTURE0);
+
+    glBindVertexArray(vertex_array_);
+    for (const auto& batch : batches_) {
+        const auto texture = batch.image ? textures_.find(batch.image) : textures_.end();
+        const bool textured = texture != textures_.end();
+        glUniform1i(place(program, "textured"), textured);
+        if (textured) {
+            glBindTexture(GL_TEXTURE_2D, texture->second);
+            const auto& mean = scene_->materials[at(batch.material)].texture->mean;
+            glUniform3f(place(program, "mean_rgb"), static_cast<float>(mean.r), static_cast<float>(mean.g),
+                        static_cast<float>(mean.b));
+        }
+        glUniform1i(place(program, "first_element"), static_cast<GLint>(batch.first));
+        glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * batch.count), GL_UNSIGNED_INT,
+                       reinterpret_cast<const void*>(batch.first * sizeof(glm::uvec3)));
+    }
+    glBindVertexArray(0);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_DEPTH_TEST);
+}
+
+void Renderer::draw_display(const RenderParams& params, double max_display) {
+    glBindFramebuffer(GL_FRAMEBUFFER, target_->display_pass);
+    glViewport(0, 0, params.width, params.height);
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_BLEND);
+    glDisable(GL_DEPTH_TEST);
+    const GLuint program = params.samples > 1 ? display_many_ : display_one_;
+    glUseProgram(program);
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(params.samples > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D, target_->seen);
+    glUniform1i(place(program, "seen"), 0);
+    glUniform1f(place(program, "rescale"), static_cast<float>(drawn_max_display_ / max_display));
+    int clip_rule = 0;
+    switch (params.display.clip) {
+    case ClipRule::clamp:
+    case ClipRule::scale_all: clip_rule = 0; break;
+    case ClipRule::keep_chromaticity: clip_rule = 1; break;
+    case ClipRule::desaturate: clip_rule = 2; break;
+    }
+    glUniform1i(place(program, "clip_rule"), clip_rule);
+    glUniform1i(place(program, "srgb_curve"), params.display.curve == TransferCurve::srgb);
+    glUniform1f(place(program, "gamma"), static_cast<float>(params.display.gamma));
+    const glm::vec3 weights = glm::row(xyz_from_rgb(srgb), 1);
+    glUniform3fv(place(program, "luminance_weights"), 1, glm::value_ptr(weights));
+    glUniform1i(place(program, "show_unshot"), params.view == ViewMode::unshot);
+    const float top = std::log10(std::max(params.unshot_top, 1e-9f));
+    glUniform1f(place(program, "log_low"), top - false_colour_decades);
+    glUniform1f(place(program, "log_high"), top);
+    glUniform3f(place(program, "backdrop"), colours::backdrop.x, colours::backdrop.y, colours::backdrop.z);
+    glUniform3f(place(program, "line_colour"), 0.95f, 0.95f, 0.95f);
+    glUniform3f(place(program, "outline_colour"), colours::accent.x, colours::accent.y, colours::accent.z);
+    glUniform1i(place(program, "outline"), params.selected.has_value());
+    glUniform1i(place(program, "outline_width"), std::max(1, static_cast<int>(std::lround(params.line_width))));
+    glBindVertexArray(no_vertices_);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glBindVertexArray(0);
+}
+
+// For ClipRule::scale_all: the largest component of linear RGB in the picture, cd m^-2.
+double Renderer::largest_component_seen() {
+    GlFramebuffer resolved = new_framebuffer();
+    GlTexture texture;
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, target_->mesh_pass);
+    if (target_->samples > 1) {
+        texture = new_texture();
+        glBindTexture(GL_TEXTURE_2D, texture);
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, target_->width, target_->height, 0, GL_RGBA, GL_HALF_FLOAT, nullptr);
+        glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved);
+        glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
+        glBlitFramebuffer(0, 0, target_->width, target_->height, 0, 0, target_->width, target_->height, GL_COLOR_BUFFER_BIT,
+                          GL_NEAREST);
+        glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved);
+    }
+    std::vector<glm::vec4> pixels(static_cast<std::size_t>(target_->width) * static_cast<std::size_t>(target_->height));
+    glReadPixels(0, 0, target_->width, target_->height, GL_RGBA, GL_FLOAT, pixels.data());
+    float largest = 0;
+    for (const auto& pixel : pixels)
+        if (pixel.a > 0.5f) largest = std::max({largest, pixel.r, pixel.g, pixel.b});
+    return largest * drawn_max_display_;
+}
+
+} // namespace lueur

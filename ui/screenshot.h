@@ -1,0 +1,50 @@
+// Saves pictures from snapshots on a thread of its own, through the same ray-cast picture as `lueur render`.
+#pragma once
+
+#include <atomic>
+#include <expected>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/display/display.h"
+#include "editor/snapshot.h"
+
+namespace lueur {
+
+struct ScreenshotParams {
+    std::shared_ptr<const Snapshot> snapshot;
+    Camera camera;
+    DisplaySettings display;
+    int width = 1280, height = 800;
+    std::filesystem::path scene_file; // named in the metadata
+    std::filesystem::path output;
+};
+
+// $XDG_PICTURES_DIR or the current folder / lueur-YYYYMMDD-HHMMSS.png; a number is added when the name is taken.
+std::filesystem::path new_screenshot_file();
+
+class Screenshots {
+public:
+    explicit Screenshots(std::function<void()> wake); // called from the thread when a picture is done
+    ~Screenshots();                                    // cancels
+
+    void start(ScreenshotParams params);
+    // What has been finished since the last call: a path or why not.
+    std::vector<std::expected<std::filesystem::path, std::string>> finished();
+    std::size_t running() const;
+
+private:
+    std::function<void()> wake_;
+    std::atomic<bool> cancel_{false};
+    std::vector<std::expected<std::filesystem::path, std::string>> finished_;
+    mutable std::mutex mutex_;
+    std::size_t running_ = 0;
+    std::vector<std::jthread> threads_;
+};
+
+} // namespace lueur

@@ -1,0 +1,134 @@
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "ui/panels.h"
+#include "ui/widgets.h"
+
+namespace lueur {
+namespace {
+
+void figure(const UiState& state, const char* name, const std::string& value, const char* tip) {
+    ImGui::TableNextColumn();
+    ImGui::TextColored(colours::dim, "%s", name);
+    tooltip(state, tip);
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(value.c_str());
+}
+
+std::string count(std::uint64_t n) {
+    if (n >= 10'000'000) return fmt::format("{:.1f} M", static_cast<double>(n) * 1e-6);
+    return short_number(static_cast<double>(n));
+}
+
+void status_figures(const SolveStatus& status, const UiState& state) {
+    ImGui::PushFont(state.fonts.small);
+    ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {2 * state.scale, 1 * state.scale});
+    if (ImGui::BeginTable("##figures", 4, ImGuiTableFlags_SizingStretchSame)) {
+        figure(state, "Receivers", count(status.receivers), "Points that gather indirect light");
+        figure(state, "Rays", count(status.rays), "Traced since the mesh was made");
+        figure(state, "Elements", count(status.elements), "Triangles that are drawn and interpolated");
+        figure(state, "a receiver", count(status.rays_per_receiver), "Hemisphere rays a receiver");
+        figure(state, "Vertices", count(status.vertices), "Of the fine mesh");
+        figure(state, "Row entries", count(status.row_entries), "Kept: who sees whom, and how much");
+        figure(state, "Sweeps", count(status.sweeps), "Over all rows");
+        figure(state, "Shots", count(status.shots), "Patches that have shot their light");
+        figure(state, "Emitted", short_number(status.emitted_lumens) + " lm", "By all luminaires");
+        figure(state, "Last edit", status.last_edit_seconds > 0 ? fmt::format("{:.0f} ms", 1000 * status.last_edit_seconds) : "-",
+               "Solve time from the last edit to the first settled picture");
+        ImGui::EndTable();
+    }
+    ImGui::PopStyleVar();
+    ImGui::PopFont();
+}
+
+} // namespace
+
+std::optional<Edit> solver_panel(const Document& document, const Snapshot& snapshot, UiState& state) {
+    const auto& stored = document.scene().solve;
+    auto solve = state.solve_draft.value_or(stored);
+    bool any = false;      // changed for good
+    bool dragging = false; // still changing
+
+    row_label(state, "Solver");
+    int solver = static_cast<int>(solve.solver);
+    if (segmented(state, "solver",
+                  {{"Gathering", "Direct light apart, rays gathered once and kept, sweeps over the kept rows"},
+                   {"Shooting", "Progressive refinement: the patch with most unshot light shoots it, and an ambient term stands for the rest"}},
+                  solver)) {
+        solve.solver = static_cast<SolverKind>(solver);
+        any = true;
+    }
+    row_label(state, "");
+    const float third = (ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x) / 3;
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {2 * state.scale, ImGui::GetStyle().FramePadding.y});
+    if (ImGui::Button(state.paused ? "Go on" : "Pause", {third, 0})) state.commands.push_back(Command::pause);
+    state.layout_log.widget("pause");
+    ImGui::SameLine();
+    ImGui::BeginDisabled(!state.paused);
+    if (ImGui::Button("Step", {third, 0})) state.commands.push_back(Command::step);
+    ImGui::EndDisabled();
+    state.layout_log.widget("step");
+    tooltip(state, "One sweep or one shot, while paused");
+    ImGui::SameLine();
+    if (ImGui::Button("Restart", {third, 0})) state.commands.push_back(Command::restart);
+    state.layout_log.widget("restart");
+    tooltip(state, "From black again; the rays are kept");
+    ImGui::PopStyleVar();
+
+    row_label(state, "Wavelengths", "Channels that the light is computed in. RGB is fast and wrong for lamps with lines.");
+    const bool rgb = solve.wavelengths.rule == WavelengthRule::rgb;
+    const auto text = rgb ? std::string("RGB") : fmt::format("{} from 400 to 700 nm", solve.wavelengths.count);
+    if (ImGui::BeginCombo("##wavelengths", text.c_str())) {
+        const auto choose = [&](const char* name, const WavelengthsSpec& spec) {
+            if (ImGui::Selectable(name, solve.wavelengths == spec)) {
+                solve.wavelengths = spec;
+                any = true;
+            }
+        };
+        choose("RGB", {WavelengthRule::rgb, 3});
+        choose("4 from 400 to 700 nm", {WavelengthRule::uniform, 4});
+        choose("8", {WavelengthRule::uniform, 8});
+        choose("16, each 20 nm", {WavelengthRule::uniform, 16});
+        choose("31, each 10 nm", {WavelengthRule::uniform, 31});
+        ImGui::EndCombo();
+    }
+    state.layout_log.widget("wavelengths");
+
+    // Applied when the hand lets go: each value on the way would cost rays.
+    const auto released = [&] {
+        dragging = dragging || ImGui::IsItemActive();
+        any = any || ImGui::IsItemDeactivatedAfterEdit();
+    };
+    row_label(state, "Target error", "Estimated relative RMS error of irradiance at which the solver rests.");
+    double percent = 100 * solve.target_error;
+    if (log_slider("##target", percent, 0.1, 20, "%.2g %%") && percent > 0) solve.target_error = percent / 100;
+    released();
+    row_label(state, "Rays at most", "Hemisphere rays of a receiver.");
+    static constexpr std::array rays{64, 128, 256, 512, 1024, 2048, 4096};
+    if (ImGui::BeginCombo("##rays", fmt::format("{}", solve.max_rays).c_str())) {
+        for (const int n : rays)
+            if (ImGui::Selectable(fmt::format("{}", n).c_str(), n == solve.max_rays)) {
+                solve.max_rays = n;
+                any = true;
+            }
+        ImGui::EndCombo();
+    }
+    row_label(state, "Element size", "Largest edge of a coarse element in metres; 0: chosen from the scene's area.");
+    double size = solve.element_size;
+    const double low = 0, high = 1000;
+    if (ImGui::DragScalar("##element", ImGuiDataType_Double, &size, static_cast<float>(std::max(0.005, size * 0.01)), &low, &high,
+                          size > 0 ? "%.3f m" : "automatic") &&
+        size >= 0)
+        solve.element_size = size;
+    released();
+
+    status_figures(snapshot.status, state);
+    state.solve_draft.reset();
+    if (dragging && !any) state.solve_draft = solve;
+    if (!any || solve == stored) return {};
+    return SetSolve{solve};
+}
+
+} // namespace lueur

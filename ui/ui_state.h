@@ -1,0 +1,77 @@
+// What the window remembers between frames that is not part of the document: selection, layout, drafts, what was asked for.
+// One thread (the window's) owns it. Panels read and change it freely; what changes the scene goes through an Edit.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "editor/edit.h"
+#include "editor/snapshot.h"
+#include "ui/commands.h"
+#include "ui/exposure.h"
+#include "ui/layout_log.h"
+#include "ui/messages.h"
+#include "ui/theme.h"
+
+namespace lueur {
+
+enum class ViewMode { shaded, elements, unshot };
+
+// Which file the browser is open for.
+enum class FilePurpose { open_scene, save_scene, reflectance_spectrum, emission_spectrum, texture };
+struct FileRequest {
+    FilePurpose purpose = FilePurpose::open_scene;
+    MaterialIndex material{};
+    LuminaireIndex luminaire{};
+    std::string column; // of a spectrum file
+};
+
+// Sizes in unscaled pixels; kept in the preferences.
+struct Layout {
+    float column_width = 348;
+    float strip_height = 168;
+    float lower_height = 372; // of the lower half of the column
+    bool panels_visible = true;
+    bool probe_at_cursor = false;
+};
+
+struct UiState {
+    ViewMode view = ViewMode::shaded;
+    std::optional<ObjectIndex> selected;
+    std::optional<MaterialIndex> material;   // open in the materials panel
+    std::optional<LuminaireIndex> luminaire; // unfolded in the luminaires panel
+    bool show_luminaires = false;            // bring the luminaires tab to the front once
+    std::optional<Probe> hovered;
+
+    Layout layout;
+    Fonts fonts;
+    float scale = 1; // pixels for each unscaled pixel
+
+    std::string material_filter, luminaire_filter;
+    std::string spectrum_column;
+    std::map<std::size_t, double> muted;       // luminaire -> dimmer before it was muted
+    float master = 1;                       // of the drag of the master dimmer that is going on
+    std::optional<Scene> preview;           // shown to the solver while the master dimmer is dragged; becomes an edit at its end
+    std::optional<SolveSettings> solve_draft; // while a slider that costs rays is being dragged
+
+    Exposure exposure; // MAXDISPLAY in use
+    float unshot_top = 0; // top of the false-colour scale, lm m^-2
+
+    bool paused = false;
+    bool help_open = false, log_open = false, about_open = false;
+    std::vector<std::string> open_errors; // shown in a box until closed
+    std::string open_errors_file;
+    Messages messages;
+
+    // Asked for this frame; the application does them between frames.
+    std::vector<Command> commands;
+    std::vector<std::filesystem::path> files_to_open;
+    std::optional<FileRequest> file_request;
+
+    LayoutLog layout_log;
+};
+
+} // namespace lueur

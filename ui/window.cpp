@@ -1,0 +1,181 @@
+#include "ui/window.h"
+
+#include <epoxy/gl.h>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
+
+namespace lueur {
+namespace {
+
+std::string last_glfw_error() {
+    const char* text = nullptr;
+    glfwGetError(&text);
+    return text ? text : "no reason given";
+}
+
+double environment_scale() {
+    if (const char* text = std::getenv("LUEUR_SCALE"))
+        if (const double scale = std::strtod(text, nullptr); scale >= 0.5 && scale <= 4) return scale;
+    return 1;
+}
+
+} // namespace
+
+Window& Window::of(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUserPointer(window)); }
+
+std::expected<std::unique_ptr<Window>, std::string> Window::open(const WindowParams& params) {
+    if (!glfwInit()) return std::unexpected("no display to open a window on (" + last_glfw_error() + ")");
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+    glfwWindowHint(GLFW_VISIBLE, params.visible ? GLFW_TRUE : GLFW_FALSE);
+    glfwWindowHint(GLFW_MAXIMIZED, params.maximized ? GLFW_TRUE : GLFW_FALSE);
+    glfwWindowHint(GLFW_DEPTH_BITS, 0);
+    glfwWindowHint(GLFW_STENCIL_BITS, 0);
+    auto* handle = glfwCreateWindow(params.width, params.height, "Lueur", nullptr, nullptr);
+    if (!handle) {
+        auto reason = "OpenGL 3.3 is not to be had (" + last_glfw_error() + ")";
+        glfwTerminate();
+        return std::unexpected(std::move(reason));
+    }
+    std::unique_ptr<Window> window(new Window);
+    window->window_ = handle;
+    window->user_scale_ = params.scale;
+    glfwMakeContextCurrent(handle);
+    glfwSwapInterval(1);
+    glfwSetWindowSizeLimits(handle, 640, 480, GLFW_DONT_CARE, GLFW_DONT_CARE);
+    glfwSetWindowUserPointer(handle, window.get());
+
+    glfwSetKeyCallback(handle, [](GLFWwindow* w, int key, int, int action, int modifiers) {
+        auto& events = of(w).events_;
+        events.any = true;
+        if (action != GLFW_RELEASE) events.keys.push_back({key, modifiers});
+    });
+    glfwSetDropCallback(handle, [](GLFWwindow* w, int count, const char** paths) {
+        auto& events = of(w).events_;
+        events.any = true;
+        for (int i = 0; i < count; ++i) events.dropped.emplace_back(paths[i]);
+    });
+    glfwSetWindowCloseCallback(handle, [](GLFWwindow* w) {
+        of(w).events_.any = of(w).events_.close = true;
+        glfwSetWindowShouldClose(w, GLFW_FALSE); // the program asks about unsaved changes first
+    });
+    glfwSetWindowContentScaleCallback(handle, [](GLFWwindow* w, float, float) {
+        of(w).events_.any = of(w).events_.scale_changed = true;
+        of(w).fonts_stale_ = true;
+    });
+    glfwSetCursorPosCallback(handle, [](GLFWwindow* w, double, double) { of(w).events_.any = true; });
+    glfwSetCursorEnterCallback(handle, [](GLFWwindow* w, int) { of(w).events_.any = true; });
+    glfwSetMouseButtonCallback(handle, [](GLFWwindow* w, int, int, int) { of(w).events_.any = true; });
+    glfwSetScrollCallback(handle, [](GLFWwindow* w, double, double) { of(w).events_.any = true; });
+    glfwSetCharCallback(handle, [](GLFWwindow* w, unsigned) { of(w).events_.any = true; });
+    glfwSetWindowFocusCallback(handle, [](GLFWwindow* w, int) { of(w).events_.any = true; });
+    glfwSetWindowRefreshCallback(handle, [](GLFWwindow* w) { of(w).events_.any = true; });
+    glfwSetFramebufferSizeCallback(handle, [](GLFWwindow* w, int, int) { of(w).events_.any = true; });
+    glfwSetWindowIconifyCallback(handle, [](GLFWwindow* w, int) { of(w).events_.any = true; });
+
+    IMGUI_CHECKVERSION();
+    ImGui::CreateContext();
+    auto& io = ImGui::GetIO();
+    io.IniFilename = nullptr; // what is remembered is in the preferences
+    io.ConfigWindowsMoveFromTitleBarOnly = true;
+    ImGui_ImplGlfw_InitForOpenGL(handle, true); // keeps the callbacks above and adds its own
+    ImGui_ImplOpenGL3_Init("#version 330 core");
+    window->make_fonts();
+    window->events_.any = true;
+    return window;
+}
+
+Window::~Window() {
+    if (ImGui::GetCurrentContext()) {
+        ImGui_ImplOpenGL3_Shutdown();
+        ImGui_ImplGlfw_Shutdown();
+        ImGui::DestroyContext();
+    }
+    if (window_) glfwDestroyWindow(window_);
+    glfwTerminate();
+}
+
+void Window::make_fonts() {
+    float x = 1, y = 1;
+    glfwGetWindowContentScale(window_, &x, &y);
+    int logical = 0, physical = 0;
+    glfwGetWindowSize(window_, &logical, nullptr);
+    glfwGetFramebufferSize(window_, &physical, nullptr);
+    // Where screen coordinates are already scaled (Wayland, macOS) ImGui scales by itself.
+    const float given = logical > 0 && physical > 0 ? static_cast<float>(physical) / static_cast<float>(logical) : 1.0f;
+    scale_ = std::clamp(static_cast<float>(user_scale_ * environment_scale()) * std::max(x, 0.5f) / std::max(given, 0.5f), 0.5f, 6.0f);
+    apply_theme(scale_);
+    fonts_ = load_fonts(scale_, font_complaint_);
+    ImGui_ImplOpenGL3_DestroyFontsTexture();
+    fonts_stale_ = false;
+}
+
+void Window::wait(double seconds) {
+    if (seconds < 0)
+        glfwWaitEvents();
+    else if (seconds == 0)
+        glfwPollEvents();
+    else
+        glfwWaitEventsTimeout(seconds);
+}
+
+void Window::wake() { glfwPostEmptyEvent(); }
+
+WindowEvents Window::take_events() { return std::exchange(events_, {}); }
+
+void Window::set_scale(double scale) {
+    user_scale_ = scale;
+    fonts_stale_ = true;
+}
+
+void Window::set_title(const std::string& title) {
+    if (title == title_) return;
+    title_ = title;
+    glfwSetWindowTitle(window_, title.c_str());
+}
+
+void Window::begin_frame() {
+    if (fonts_stale_) make_fonts();
+    // Tab hides the panels; it goes from field to field only while text is typed.
+    ImGui::GetIO().KeyMap[ImGuiKey_Tab] = ImGui::GetIO().WantTextInput ? GLFW_KEY_TAB : -1;
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui_ImplGlfw_NewFrame();
+    ImGui::NewFrame();
+}
+
+void Window::end_frame() {
+    ImGui::Render();
+    int w = 0, h = 0;
+    glfwGetFramebufferSize(window_, &w, &h);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glViewport(0, 0, w, h);
+    glClearColor(colours::backdrop.x, colours::backdrop.y, colours::backdrop.z, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    glfwSwapBuffers(window_);
+}
+
+int Window::width() const {
+    int w = 0;
+    glfwGetWindowSize(window_, &w, nullptr);
+    return w;
+}
+int Window::height() const {
+    int h = 0;
+    glfwGetWindowSize(window_, nullptr, &h);
+    return h;
+}
+void Window::pointer(double& x, double& y) const { glfwGetCursorPos(window_, &x, &y); }
+bool Window::maximized() const { return glfwGetWindowAttrib(window_, GLFW_MAXIMIZED); }
+double Window::now() const { return glfwGetTime(); }
+
+} // namespace lueur

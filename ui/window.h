@@ -1,0 +1,75 @@
+// The window of the operating system with its OpenGL context and Dear ImGui inside: the only code that sees GLFW's callbacks.
+#pragma once
+
+#include <expected>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ui/theme.h"
+
+struct GLFWwindow;
+
+namespace lueur {
+
+struct WindowParams {
+    int width = 1280, height = 800; // screen coordinates
+    bool maximized = false;
+    bool visible = true;
+    double scale = 1; // on top of the monitor's own
+};
+
+// What has come since the last look.
+struct WindowEvents {
+    bool any = false;
+    bool close = false;
+    struct Key {
+        int key, modifiers;
+    };
+    std::vector<Key> keys; // pressed
+    std::vector<std::filesystem::path> dropped;
+    bool scale_changed = false;
+};
+
+class Window {
+public:
+    // The error is one line for a person.
+    static std::expected<std::unique_ptr<Window>, std::string> open(const WindowParams& params);
+    ~Window();
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
+
+    void wait(double seconds); // for events; 0: only takes what is there; < 0: as long as it takes
+    static void wake();        // from any thread: ends a wait
+    WindowEvents take_events();
+
+    void set_scale(double scale); // the user's own, on top of the monitor's
+    void set_title(const std::string& title);
+    void begin_frame();
+    void end_frame(); // draws and shows
+
+    float scale() const { return scale_; } // pixels for each unscaled pixel
+    const Fonts& fonts() const { return fonts_; }
+    const std::string& font_complaint() const { return font_complaint_; }
+    int width() const; // screen coordinates
+    int height() const;
+    void pointer(double& x, double& y) const;
+    bool maximized() const;
+    double now() const; // s
+
+private:
+    Window() = default;
+    void make_fonts();
+    static Window& of(GLFWwindow* window);
+
+    GLFWwindow* window_ = nullptr;
+    WindowEvents events_;
+    double user_scale_ = 1;
+    float scale_ = 1;
+    bool fonts_stale_ = false;
+    Fonts fonts_;
+    std::string font_complaint_, title_;
+};
+
+} // namespace lueur
