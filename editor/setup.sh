@@ -60,13 +60,14 @@ install_packages() {
     rm -f "$log"
 }
 
-# build FOLDER TARGET [CMAKE OPTION...]: configures when the options are new and builds; says little when nothing is to be done.
+# build FOLDER TARGET [CMAKE OPTION...]: configures when the options are new, and builds. Without a terminal it says nothing that a first
+# time or a mistake does not give reason for.
 build() {
     local folder=$lueur_root/$1 target=$2
     shift 2
     local options="$*"
     if [[ ! -f $folder/build.ninja || ! -f $folder/configured-with || $(<"$folder/configured-with") != "$options" ]]; then
-        say "Configuring ${folder#"$lueur_root"/}"
+        say "Configuring and building ${folder#"$lueur_root"/}"
         mkdir -p "$folder"
         if ! cmake -S "$lueur_root" -B "$folder" -G Ninja "$@" >"$folder/configure.log" 2>&1; then
             cat "$folder/configure.log" >&2
@@ -74,10 +75,9 @@ build() {
         fi
         printf '%s\n' "$options" >"$folder/configured-with"
     fi
-    local quiet=()
-    if [[ ! -t 1 ]]; then
-        quiet=(--quiet)
-        ninja -C "$folder" -n "$target" 2>/dev/null | grep -q 'no work to do' || say "Building ${folder#"$lueur_root"/} ($target)"
+    if [[ -t 2 ]]; then
+        (cd "$folder" && ninja -j "$(nproc)" "$target" >&2)
+    else
+        ninja -C "$folder" --quiet -j "$(nproc)" "$target" | { grep -v '^ninja: no work to do' >&2 || true; }
     fi
-    ninja -C "$folder" "${quiet[@]}" -j "$(nproc)" "$target" >&2
 }

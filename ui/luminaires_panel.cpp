@@ -69,14 +69,7 @@ std::optional<Edit> spectrum_controls(LuminaireIndex index, const Luminaire& lum
             if (std::max({colour.r, colour.g, colour.b}) > 0) edit = SetEmissionSpectrum{index, colour};
         }
     } else if (const auto* file = std::get_if<SpectrumFile>(&luminaire.spectrum)) {
-        row_label(state, "From");
-        const auto text = file->path + (file->column.empty() ? "" : "  [" + file->column + "]");
-        ImGui::TextUnformatted(text.c_str());
-        row_label(state, "Column", "Name of the column to read from the next file you choose; empty: the first.");
-        ImGui::InputText("##column", &state.spectrum_column);
-        row_label(state, "");
-        if (ImGui::Button("Choose a file...", {-1, 0}))
-            state.file_request = FileRequest{FilePurpose::emission_spectrum, {}, index, state.spectrum_column};
+        if (file_row(state, *file)) state.file_request = FileRequest{FilePurpose::emission_spectrum, {}, index, state.spectrum_column};
     }
     spectrum_plot(state, "##curve", curve_of(luminaire.spectrum), 0);
     return edit;

@@ -119,14 +119,7 @@ std::optional<Edit> reflectance_controls(MaterialIndex index, const Material& ma
     } else if (const auto* rgb = std::get_if<Rgb>(&material.reflectance)) {
         if (auto changed = rgb_controls(index, *rgb, state)) edit = changed;
     } else if (const auto* file = std::get_if<SpectrumFile>(&material.reflectance)) {
-        row_label(state, "From");
-        const auto text = file->path + (file->column.empty() ? "" : "  [" + file->column + "]");
-        ImGui::TextUnformatted(text.c_str());
-        row_label(state, "Column", "Name of the column to read from the next file you choose; empty: the first.");
-        ImGui::InputText("##column", &state.spectrum_column);
-        row_label(state, "");
-        if (ImGui::Button("Choose a file...", {-1, 0}))
-            state.file_request = FileRequest{FilePurpose::reflectance_spectrum, index, {}, state.spectrum_column};
+        if (file_row(state, *file)) state.file_request = FileRequest{FilePurpose::reflectance_spectrum, index, {}, state.spectrum_column};
     }
     return edit;
 }

@@ -123,8 +123,8 @@ void Renderer::set_snapshot(const Snapshot& snapshot) {
         upload_field(*field_);
         stale_ = true;
     }
-    if (snapshot.status.shooting_element != shooting_) {
-        shooting_ = snapshot.status.shooting_element;
+    if (snapshot.status.shooting_patch != shooting_) {
+        shooting_ = snapshot.status.shooting_patch;
         stale_ = true;
     }
 }
@@ -181,7 +181,7 @@ void Renderer::upload_elements(const Mesh& mesh, const Scene& scene) {
         }
         ++batches_.back().count;
         elements.push_back(mesh.elements[element]);
-        coarse.push_back(mesh.element_coarse[element]);
+        coarse.push_back(mesh.coarse_patch[mesh.element_coarse[element]]);
     }
     glBindVertexArray(vertex_array_);
     fill(GL_ELEMENT_ARRAY_BUFFER, elements_, elements, GL_STATIC_DRAW);

@@ -19,7 +19,7 @@ void figure(const UiState& state, const char* name, const std::string& value, co
 
 std::string count(std::uint64_t n) {
     if (n >= 10'000'000) return fmt::format("{:.1f} M", static_cast<double>(n) * 1e-6);
-    return short_number(static_cast<double>(n));
+    return whole_number(n);
 }
 
 void status_figures(const SolveStatus& status, const UiState& state) {

@@ -41,15 +41,16 @@ void status_line(const Document& document, const Snapshot& snapshot, UiState& st
         tooltip(state, status.message.c_str());
     }
     const auto& scene = document.scene();
-    const auto right = fmt::format("{}  ·  {} triangles  ·  {} luminaires", scene.name.empty() ? document.file().filename().string() : scene.name,
-                                   short_number(static_cast<double>(scene.geometry->triangles.size())), scene.luminaires.size());
+    const auto lamps = scene.luminaires.size();
+    const auto right = fmt::format("{}  ·  {} triangles  ·  {} luminaire{}",
+                                   scene.name.empty() ? document.file().filename().string() : scene.name,
+                                   whole_number(scene.geometry->triangles.size()), lamps, lamps == 1 ? "" : "s");
     const float x = ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(right.c_str()).x;
     ImGui::SameLine();
     if (ImGui::GetCursorPosX() + 10 * scale < x) {
         ImGui::SetCursorPosX(x);
         ImGui::TextColored(colours::dim, "%s", right.c_str());
-    }
-    else
+    } else
         ImGui::NewLine();
 }
 

@@ -7,7 +7,7 @@ namespace lueur {
 namespace {
 
 // Latin, Greek and Cyrillic letters for names in files; superscripts, arrows and relations for units and figures.
-constexpr std::array<ImWchar, 21> glyph_ranges{0x0020, 0x017f, 0x0370, 0x03ff, 0x0400, 0x045f, 0x2010, 0x2027, 0x2070,
+constexpr std::array<ImWchar, 21> glyph_ranges{0x0020, 0x017f, 0x0370, 0x03ff, 0x0400, 0x045f, 0x2000, 0x2027, 0x2070,
                                                0x209c, 0x2190, 0x2193, 0x2212, 0x2212, 0x2248, 0x2248, 0x2260, 0x2265,
                                                0x25b2, 0x25bc, 0};
 
@@ -56,7 +56,7 @@ void apply_theme(float scale) {
     style.ItemInnerSpacing = {6, 4};
     style.IndentSpacing = 14;
     style.ScrollbarSize = 12;
-    style.GrabMinSize = 10;
+    style.GrabMinSize = 7;
     style.WindowRounding = 0;
     style.ChildRounding = 4;
     style.FrameRounding = 4;
@@ -92,7 +92,7 @@ void apply_theme(float scale) {
     c[ImGuiCol_ScrollbarGrabHovered] = grey(0.40f);
     c[ImGuiCol_ScrollbarGrabActive] = grey(0.48f);
     c[ImGuiCol_CheckMark] = accent;
-    c[ImGuiCol_SliderGrab] = with_alpha(accent, 0.90f);
+    c[ImGuiCol_SliderGrab] = with_alpha(accent, 0.80f);
     c[ImGuiCol_SliderGrabActive] = accent;
     c[ImGuiCol_Button] = grey(0.255f);
     c[ImGuiCol_ButtonHovered] = grey(0.315f);

@@ -33,7 +33,7 @@ struct FileRequest {
 struct Layout {
     float column_width = 348;
     float strip_height = 168;
-    float lower_height = 372; // of the lower half of the column
+    float lower_height = 312; // of the lower half of the column
     bool panels_visible = true;
     bool probe_at_cursor = false;
 };

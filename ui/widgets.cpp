@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 #include <imgui_internal.h>
+#include <imgui_stdlib.h>
 
 #include "core/spectrum/colour.h"
 #include "core/spectrum/observer.h"
@@ -150,16 +151,34 @@ void spectrum_plot(const UiState& state, const char* id, const Spectrum& spectru
     }
 }
 
+bool file_row(UiState& state, const SpectrumFile& file) {
+    row_label(state, "From");
+    ImGui::PushStyleVar(ImGuiStyleVar_ButtonTextAlign, {0, 0.5f});
+    const bool pressed = ImGui::Button((file.path + "##file").c_str(), {-1, 0});
+    ImGui::PopStyleVar();
+    const auto whole = file.path + (file.column.empty() ? "" : ", column " + file.column) + "\nPress to choose another file.";
+    tooltip(state, whole.c_str());
+    state.layout_log.widget("spectrum_file");
+    row_label(state, "Column", "Name of the column to read from the next file you choose; empty: the first.");
+    ImGui::InputTextWithHint("##column", file.column.empty() ? "first" : file.column.c_str(), &state.spectrum_column);
+    return pressed;
+}
+
+std::string whole_number(std::uint64_t value) {
+    auto digits = fmt::format("{}", value);
+    for (int i = static_cast<int>(digits.size()) - 3; i > 0; i -= 3)
+        digits.insert(static_cast<std::size_t>(i), "\xe2\x80\x89"); // thin space
+    return digits;
+}
+
 std::string short_number(double value) {
     if (!std::isfinite(value)) return "-";
     const double size = std::abs(value);
     if (size == 0) return "0";
     if (size >= 1e7 || size < 1e-4) return fmt::format("{:.2e}", value);
     if (size >= 1000) {
-        auto digits = fmt::format("{:.0f}", value);
-        for (int i = static_cast<int>(digits.size()) - 3; i > (value < 0 ? 1 : 0); i -= 3)
-            digits.insert(static_cast<std::size_t>(i), "\xe2\x80\x89"); // thin space
-        return digits;
+        const auto digits = whole_number(static_cast<std::uint64_t>(std::llround(size)));
+        return value < 0 ? fmt::format("-{}", digits) : digits;
     }
     const int decimals = std::clamp(2 - static_cast<int>(std::floor(std::log10(size))), 0, 6);
     return fmt::format("{:.{}f}", value, decimals);

@@ -1,6 +1,7 @@
 // The few compound widgets that panels share.
 #pragma once
 
+#include <cstdint>
 #include <initializer_list>
 #include <string>
 
@@ -32,7 +33,12 @@ void swatch(const UiState& state, const char* id, const glm::vec3& encoded_colou
 // A curve over 380..780 nm above a strip of the colours of the spectrum. `top`: value at the upper edge; 0: the curve's own largest.
 void spectrum_plot(const UiState& state, const char* id, const Spectrum& spectrum, double top);
 
+// Where a spectrum came from, as a button that asks for another, and the column to read from that. True when pressed.
+bool file_row(UiState& state, const SpectrumFile& file);
+
 std::string short_number(double value); // 3 significant figures, thousands with a thin space: "1 240", "0.0317"
+
+std::string whole_number(std::uint64_t value);
 
 ImU32 packed(const ImVec4& colour, float alpha = 1);
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -38,7 +39,7 @@ void check_material(Checker& checker, const Material& material) {
     if (material.texture) checker.expect(material.texture->image != nullptr, fmt::format("material \"{}\": the texture has no picture", material.name), "a picture");
 }
 
-void check_luminaire(Checker& checker, const Scene& scene, const Luminaire& luminaire) {
+void check_luminaire(Checker& checker, const Scene& scene, const Luminaire& luminaire, const Wavelengths& wavelengths) {
     const std::string what = fmt::format("luminaire \"{}\": ", luminaire.name);
     const std::size_t before = checker.faults.size();
     checker.range(luminaire.power, 0, 1e12, what + "power", "0..1e12");
@@ -62,9 +63,9 @@ void check_luminaire(Checker& checker, const Scene& scene, const Luminaire& lumi
         checker.faults.push_back(what + "its objects have no area, so it emits nothing");
         return;
     }
-    const bool lumens = luminaire.unit == PowerUnit::lumen;
-    if (!((lumens ? luminous_flux(scene, luminaire) : radiant_flux(scene, luminaire)) > 0))
-        checker.faults.push_back(fmt::format("{}its spectrum has no {}, so it emits nothing", what, lumens ? "visible light" : "power"));
+    const std::vector<double> exitance = exitance_channels(scene, luminaire, wavelengths);
+    if (std::none_of(exitance.begin(), exitance.end(), [](double channel) { return channel != 0; }))
+        checker.faults.push_back(fmt::format("{}its spectrum has no power in {}, so it emits nothing", what, to_string(wavelengths.spec)));
 }
 
 } // namespace
@@ -75,7 +76,8 @@ std::vector<std::string> check(const Scene& scene) {
     for (const Object& object : scene.objects)
         checker.expect(at(object.material) < scene.materials.size(), fmt::format("object \"{}\": material {} is not there", object.name, at(object.material)),
                        "a material of the scene");
-    for (const Luminaire& luminaire : scene.luminaires) check_luminaire(checker, scene, luminaire);
+    const Wavelengths wavelengths = make_wavelengths(scene.solve.wavelengths);
+    for (const Luminaire& luminaire : scene.luminaires) check_luminaire(checker, scene, luminaire, wavelengths);
 
     const Camera& camera = scene.camera;
     checker.expect(finite(camera.position) && finite(camera.target) && finite(camera.up), "camera: a position or direction is not finite", "a finite number");

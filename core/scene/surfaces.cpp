@@ -19,6 +19,7 @@ constexpr std::uint32_t none = 0xffffffffu;
 constexpr double degree = 3.14159265358979323846 / 180;
 constexpr double plane_angle = 0.2 * degree;   // between neighbours of one wall
 constexpr double flat_angle = 2 * degree;      // a file's normals this near to the wall's own are rounding
+constexpr double sharp_cosine = 0.1;            // 84 degrees: an edge is an edge, whatever the normals say
 constexpr double smooth_cosine = 0.9999;       // 0.8 degrees: one and the same normal, rounded
 constexpr double weld_share = 1e-6, plane_share = 1e-5, sliver_share = 1e-7; // of the scene's size, of the size, of the edge
 
@@ -173,7 +174,7 @@ void Builder::grow_planes() {
 // The same normals at both ends of an edge, of two triangles that are not in one plane.
 bool Builder::smooth_across(std::uint32_t triangle, int corner, const EdgeUse& other) const {
     const Triangle &a = triangles[triangle], &b = triangles[other.triangle];
-    if (glm::dot(a.normal, b.normal) <= 0) return false;
+    if (glm::dot(a.normal, b.normal) < sharp_cosine) return false;
     const auto normal = [&](const Triangle& t, int k) { return soup.vertices[t.vertex[k % 3]].normal; };
     const bool opposite = a.welded[corner] != b.welded[other.corner]; // neighbours that turn alike run along their edge in opposite ways
     const int b_first = opposite ? other.corner + 1 : other.corner, b_second = opposite ? other.corner : other.corner + 1;

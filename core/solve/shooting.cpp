@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <numeric>
 
@@ -18,6 +19,7 @@ namespace {
 
 using Range = tbb::blocked_range<std::uint32_t>;
 constexpr std::uint32_t grain = 256;
+constexpr std::uint32_t shadow_rays = 3; // a receiver and shot
 constexpr double most_sent_on = 0.98; // of a shot's flux
 
 } // namespace
@@ -29,20 +31,32 @@ Shooting::Shooting(const World& world, const Mesh& mesh, std::vector<glm::vec3> 
       emitted_(std::move(emitted_flux)), luminaire_shot_(emitted_.size(), 0), rho_(std::move(rho)), weight_(std::move(weight)),
       seed_(seed) {
     const int channels = static_cast<int>(weight_.size());
+    const std::uint32_t patches = static_cast<std::uint32_t>(mesh.patches.size());
     h_ = ChannelField(mesh.coarse_vertex_count, channels);
-    unshot_ = ChannelField(mesh.coarse_element_count, channels);
-    unshot_flux_.assign(mesh.coarse_element_count, 0);
+    unshot_ = ChannelField(patches, channels);
+    unshot_flux_.assign(patches, 0);
     emitted_total_ = std::accumulate(emitted_.begin(), emitted_.end(), 0.0);
     unshot_total_ = emitted_total_;
 
-    mean_rho_channel_.assign(channels, 0);
-    double area = 0, weights = 0;
+    patch_area_.assign(patches, 0);
+    patch_first_.assign(patches + 1, 0);
     for (std::uint32_t e = 0; e < mesh.coarse_element_count; ++e) {
-        area += mesh.coarse_area[e];
-        for (int c = 0; c < channels; ++c) mean_rho_channel_[c] += double(rho_[e][c]) * mesh.coarse_area[e];
+        patch_area_[mesh.coarse_patch[e]] += mesh.coarse_area[e];
+        ++patch_first_[mesh.coarse_patch[e] + 1];
+    }
+    std::partial_sum(patch_first_.begin(), patch_first_.end(), patch_first_.begin());
+    patch_elements_.resize(mesh.coarse_element_count);
+    std::vector<std::uint32_t> next(patch_first_.begin(), patch_first_.end() - 1);
+    for (std::uint32_t e = 0; e < mesh.coarse_element_count; ++e) patch_elements_[next[mesh.coarse_patch[e]]++] = e;
+
+    mean_rho_channel_.assign(channels, 0);
+    double weights = 0;
+    for (std::uint32_t p = 0; p < patches; ++p) {
+        total_area_ += patch_area_[p];
+        for (int c = 0; c < channels; ++c) mean_rho_channel_[c] += double(rho_[p][c]) * patch_area_[p];
     }
     for (int c = 0; c < channels; ++c) {
-        if (area > 0) mean_rho_channel_[c] /= area;
+        if (total_area_ > 0) mean_rho_channel_[c] /= total_area_;
         mean_rho_ += weight_[c] * mean_rho_channel_[c];
         weights += weight_[c];
     }
@@ -51,57 +65,66 @@ Shooting::Shooting(const World& world, const Mesh& mesh, std::vector<glm::vec3> 
 
 double Shooting::unshot_share() const { return emitted_total_ > 0 ? unshot_total_ / emitted_total_ : 0; }
 
-// Each element reflects the mean of what its vertices received; buried vertices do not count.
-void Shooting::receive(const ChannelField& irradiance) {
+// What a patch's elements receive from values at the vertices: their mean, over area. Buried vertices do not count; sums go to `out`.
+template <int Channels>
+void Shooting::add_patch_mean(std::uint32_t patch, const float* values, int stride, float* out) const {
     const Mesh& mesh = *mesh_;
+    for (std::uint32_t k = patch_first_[patch]; k < patch_first_[patch + 1]; ++k) {
+        const std::uint32_t e = patch_elements_[k];
+        const glm::uvec3 v = mesh.nodes[e].vertices;
+        std::array<const float*, 3> rows{};
+        int count = 0;
+        for (int corner = 0; corner < 3; ++corner)
+            if (!buried_[v[corner]]) rows[count++] = values + std::size_t(v[corner]) * stride;
+        if (count == 0) continue;
+        const float share = mesh.coarse_area[e] / (patch_area_[patch] * float(count));
+        for (int corner = 0; corner < count; ++corner)
+            for (int c = 0; c < Channels; ++c) out[c] += share * rows[corner][c];
+    }
+}
+
+void Shooting::receive(const ChannelField& irradiance) {
     const int channels = static_cast<int>(weight_.size());
-    tbb::parallel_for(Range(0, mesh.coarse_element_count, grain), [&](const Range& range) {
-        for (std::uint32_t e = range.begin(); e < range.end(); ++e) {
-            const glm::uvec3 v = mesh.nodes[e].vertices;
-            std::array<const float*, 3> rows{};
-            int count = 0;
-            for (int k = 0; k < 3; ++k)
-                if (!buried_[v[k]]) rows[count++] = irradiance[v[k]];
-            if (count == 0) continue;
-            float* unshot = unshot_[e];
-            const float* rho = rho_[e];
+    tbb::parallel_for(Range(0, unshot_.count, 32), [&](const Range& range) {
+        for (std::uint32_t p = range.begin(); p < range.end(); ++p) {
+            float mean[max_channels] = {};
+            switch (irradiance.stride) {
+            case 8: add_patch_mean<8>(p, irradiance.values.data(), 8, mean); break;
+            case 16: add_patch_mean<16>(p, irradiance.values.data(), 16, mean); break;
+            case 24: add_patch_mean<24>(p, irradiance.values.data(), 24, mean); break;
+            default: add_patch_mean<32>(p, irradiance.values.data(), 32, mean); break;
+            }
             float flux = 0;
             for (int c = 0; c < channels; ++c) {
-                float sum = 0;
-                for (int k = 0; k < count; ++k) sum += rows[k][c];
-                unshot[c] += rho[c] * sum / float(count);
-                flux += weight_[c] * unshot[c];
+                unshot_[p][c] += rho_[p][c] * mean[c];
+                flux += weight_[c] * unshot_[p][c];
             }
-            unshot_flux_[e] = flux * mesh.coarse_area[e];
+            unshot_flux_[p] = flux * patch_area_[p];
         }
     });
 }
 
 void Shooting::deliver(const std::vector<float>& form_factor, const float* radiosity, double shot_flux) {
-    const Mesh& mesh = *mesh_;
     const int channels = static_cast<int>(weight_.size());
-    // The flux that the elements would send on. Form factors from vertices sum to 1 at each vertex, but the mean over an element's vertices
-    // is too much for elements that touch the shooter.
+    // The flux that the patches would send on. Form factors from a vertex sum to 1, but the mean over the vertices of elements that touch
+    // the shooter is too much.
     const double sent_on = tbb::parallel_deterministic_reduce(
-        Range(0, mesh.coarse_element_count, 4 * grain), 0.0,
+        Range(0, unshot_.count, 4 * grain), 0.0,
         [&](const Range& range, double sum) {
-            for (std::uint32_t e = range.begin(); e < range.end(); ++e) {
-                const glm::uvec3 v = mesh.nodes[e].vertices;
+            for (std::uint32_t p = range.begin(); p < range.end(); ++p) {
                 float mean = 0, reflected = 0;
-                int count = 0;
-                for (int k = 0; k < 3; ++k)
-                    if (!buried_[v[k]]) mean += form_factor[v[k]], ++count;
+                add_patch_mean<1>(p, form_factor.data(), 1, &mean);
                 if (mean <= 0) continue;
-                for (int c = 0; c < channels; ++c) reflected += weight_[c] * rho_[e][c] * radiosity[c];
-                sum += double(mesh.coarse_area[e]) * reflected * mean / count;
+                for (int c = 0; c < channels; ++c) reflected += weight_[c] * rho_[p][c] * radiosity[c];
+                sum += double(patch_area_[p]) * reflected * mean;
             }
             return sum;
         },
         [](double a, double b) { return a + b; });
     const double limit = most_sent_on * shot_flux;
     const float scale = sent_on > limit ? static_cast<float>(limit / sent_on) : 1.0f;
-    ChannelField irradiance(mesh.coarse_vertex_count, channels);
-    tbb::parallel_for(Range(0, mesh.coarse_vertex_count, grain), [&](const Range& range) {
+    ChannelField irradiance(mesh_->coarse_vertex_count, channels);
+    tbb::parallel_for(Range(0, irradiance.count, grain), [&](const Range& range) {
         for (std::uint32_t i = range.begin(); i < range.end(); ++i) {
             const float f = form_factor[i] * scale;
             if (f <= 0) continue;
@@ -112,6 +135,40 @@ void Shooting::deliver(const std::vector<float>& form_factor, const float* radio
         }
     });
     receive(irradiance);
+}
+
+// F from each coarse vertex to a patch, times the share of its stratified points that the vertex sees.
+std::vector<float> Shooting::form_factors_to(std::uint32_t patch) {
+    const Mesh& mesh = *mesh_;
+    const glm::uvec3 corner = mesh.patches[patch];
+    const std::array<glm::vec3, 3> p{mesh.vertices[corner.x].position, mesh.vertices[corner.y].position,
+                                     mesh.vertices[corner.z].position};
+    const std::array<glm::dvec3, 3> polygon{p[0], p[1], p[2]};
+    const glm::vec3 normal = glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0]));
+    const float epsilon = world_->epsilon();
+    std::vector<float> form_factor(mesh.coarse_vertex_count, 0);
+    std::atomic<std::uint64_t> rays{0};
+    tbb::parallel_for(Range(0, mesh.coarse_vertex_count, 64), [&](const Range& range) {
+        std::uint64_t cast = 0;
+        for (std::uint32_t i = range.begin(); i < range.end(); ++i) {
+            if (buried_[i]) continue;
+            const glm::vec3 origin = origins_[i];
+            if (glm::dot(origin - p[0], normal) <= epsilon) continue;
+            const double f = polygon_form_factor(origin, mesh.vertices[i].normal, polygon);
+            if (f <= 1e-9) continue;
+            int seen = 0;
+            for (std::uint32_t k = 0; k < shadow_rays; ++k) {
+                const glm::vec2 b = triangle_point(r2_point(k, random_offset(seed_ + shots_, i)));
+                const glm::vec3 target = p[0] + b.x * (p[1] - p[0]) + b.y * (p[2] - p[0]) + epsilon * normal;
+                seen += !world_->occluded({origin, target - origin, 0, 1 - 1e-4f});
+            }
+            cast += shadow_rays;
+            form_factor[i] = static_cast<float>(f) * float(seen) / float(shadow_rays);
+        }
+        rays.fetch_add(cast, std::memory_order_relaxed);
+    });
+    rays_ += rays.load();
+    return form_factor;
 }
 
 bool Shooting::shoot() {
@@ -129,27 +186,7 @@ bool Shooting::shoot() {
         const auto largest = std::max_element(unshot_flux_.begin(), unshot_flux_.end());
         if (largest == unshot_flux_.end() || !(*largest > 0)) return false;
         const std::uint32_t j = static_cast<std::uint32_t>(largest - unshot_flux_.begin());
-        const Mesh& mesh = *mesh_;
-        const glm::uvec3 corner = mesh.nodes[j].vertices;
-        const std::array<glm::vec3, 3> p{mesh.vertices[corner.x].position, mesh.vertices[corner.y].position,
-                                         mesh.vertices[corner.z].position};
-        const std::array<glm::dvec3, 3> polygon{p[0], p[1], p[2]};
-        const glm::vec3 normal = glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0]));
-        const float epsilon = world_->epsilon();
-        std::vector<float> form_factor(mesh.coarse_vertex_count, 0);
-        tbb::parallel_for(Range(0, mesh.coarse_vertex_count, 64), [&](const Range& range) {
-            for (std::uint32_t i = range.begin(); i < range.end(); ++i) {
-                if (buried_[i]) continue;
-                const glm::vec3 origin = origins_[i];
-                if (glm::dot(origin - p[0], normal) <= epsilon) continue;
-                const double f = polygon_form_factor(origin, mesh.vertices[i].normal, polygon);
-                if (f <= 1e-9) continue;
-                const glm::vec2 b = triangle_point(r2_point(i, random_offset(seed_, shots_)));
-                const glm::vec3 target = p[0] + b.x * (p[1] - p[0]) + b.y * (p[2] - p[0]) + epsilon * normal;
-                if (!world_->occluded({origin, target - origin, 0, 1 - 1e-4f})) form_factor[i] = static_cast<float>(f);
-            }
-        });
-        rays_ += mesh.coarse_vertex_count;
+        const std::vector<float> form_factor = form_factors_to(j);
         const double shot_flux = unshot_flux_[j];
         std::vector<float> radiosity(unshot_[j], unshot_[j] + weight_.size());
         std::fill(unshot_[j], unshot_[j] + weight_.size(), 0.0f);
@@ -167,17 +204,14 @@ bool Shooting::shoot() {
 
 std::vector<float> Shooting::ambient() const {
     // B_ambient = R sum_j dB_j A_j / sum_k A_k, R = 1 / (1 - rho_ave) (corrections 34: display only, capped where rho_ave -> 1).
-    const Mesh& mesh = *mesh_;
     const int channels = static_cast<int>(weight_.size());
     std::vector<double> sum(channels, 0);
-    double area = 0;
-    for (std::uint32_t e = 0; e < mesh.coarse_element_count; ++e) {
-        area += mesh.coarse_area[e];
-        for (int c = 0; c < channels; ++c) sum[c] += double(unshot_[e][c]) * mesh.coarse_area[e];
-    }
+    for (std::uint32_t p = 0; p < unshot_.count; ++p)
+        for (int c = 0; c < channels; ++c) sum[c] += double(unshot_[p][c]) * patch_area_[p];
     std::vector<float> ambient(channels, 0);
     for (int c = 0; c < channels; ++c)
-        if (area > 0) ambient[c] = static_cast<float>(sum[c] / area / (1 - std::min(mean_rho_channel_[c], 0.98)));
+        if (total_area_ > 0)
+            ambient[c] = static_cast<float>(sum[c] / total_area_ / (1 - std::min(mean_rho_channel_[c], 0.98)));
     return ambient;
 }
 
@@ -185,7 +219,8 @@ std::vector<float> Shooting::unshot_at_vertices() const {
     const Mesh& mesh = *mesh_;
     std::vector<float> value(mesh.coarse_vertex_count, 0), count(mesh.coarse_vertex_count, 0);
     for (std::uint32_t e = 0; e < mesh.coarse_element_count; ++e) {
-        const float exitance = mesh.coarse_area[e] > 0 ? unshot_flux_[e] / mesh.coarse_area[e] : 0;
+        const std::uint32_t p = mesh.coarse_patch[e];
+        const float exitance = patch_area_[p] > 0 ? unshot_flux_[p] / patch_area_[p] : 0;
         for (int k = 0; k < 3; ++k) value[mesh.nodes[e].vertices[k]] += exitance, count[mesh.nodes[e].vertices[k]] += 1;
     }
     for (std::size_t v = 0; v < value.size(); ++v)

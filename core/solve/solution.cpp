@@ -48,11 +48,11 @@ ChannelField rho_of_vertices(const State& s) {
     return rho;
 }
 
-ChannelField rho_of_elements(const State& s) {
-    ChannelField rho(s.mesh.coarse_element_count, s.wavelengths.size());
-    for (std::uint32_t e = 0; e < rho.count; ++e) {
-        const auto& values = s.material_rho[s.material_of(s.mesh.coarse_surface[e])];
-        std::copy(values.begin(), values.end(), rho[e]);
+ChannelField rho_of_patches(const State& s) {
+    ChannelField rho(static_cast<std::uint32_t>(s.mesh.patches.size()), s.wavelengths.size());
+    for (std::uint32_t p = 0; p < rho.count; ++p) {
+        const auto& values = s.material_rho[s.material_of(s.mesh.vertices[s.mesh.patches[p].x].surface)];
+        std::copy(values.begin(), values.end(), rho[p]);
     }
     return rho;
 }
@@ -155,7 +155,7 @@ void start_shooting(State& s) {
     for (std::size_t l = 0; l < flux.size(); ++l)
         for (int c = 0; c < s.wavelengths.size(); ++c)
             flux[l] += weight[c] * s.luminaire_exitance[l][c] * s.direct->emitters()[l].area;
-    s.shooting = Shooting(*s.world, s.mesh, s.origins, s.buried, std::move(direct), std::move(flux), rho_of_elements(s),
+    s.shooting = Shooting(*s.world, s.mesh, s.origins, s.buried, std::move(direct), std::move(flux), rho_of_patches(s),
                           std::move(weight), s.scene->solve.seed);
     s.solving = true;
     s.status.shots = 0;
@@ -316,7 +316,7 @@ void step_shoot(State& s, const std::atomic<bool>& cancel) {
              std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < step_seconds);
     s.status.rays += s.shooting.rays() - rays_before;
     s.status.shots = s.shooting.shots();
-    s.status.shooting_element = s.shooting.last_shooter();
+    s.status.shooting_patch = s.shooting.last_shooter();
     s.status.unshot_share = s.shooting.unshot_share();
     // What is unshot would be reflected on and on: at most unshot / (1 - rho_ave) of the flux is missing.
     const double unsolved = s.status.unshot_share / std::max(1e-3, 1 - s.shooting.mean_reflectance());

@@ -32,7 +32,7 @@ struct SolveStatus {
     std::uint32_t rays_per_receiver = 0;
     std::uint32_t sweeps = 0, shots = 0;
     std::uint32_t receivers = 0, vertices = 0, elements = 0;
-    std::uint32_t shooting_element = no_index; // coarse element that shot last
+    std::uint32_t shooting_patch = no_index; // patch of the mesh that shot last; no_index: a luminaire, or none
     std::string message;          // a warning the user should read (no light, open scene...), or why it failed
 };
 

@@ -11,6 +11,8 @@ namespace lueur {
 
 namespace {
 
+constexpr double elements_across_a_patch = 3;
+
 glm::vec3 area_vector(const Geometry& geometry, const glm::uvec3& triangle) {
     const glm::vec3 a = geometry.vertices[triangle.x].position;
     return 0.5f * glm::cross(geometry.vertices[triangle.y].position - a, geometry.vertices[triangle.z].position - a);
@@ -92,12 +94,37 @@ void refine_to_size(Mesh& mesh, float size) {
     }
 }
 
-// Leaves become the coarse elements; what they were cut from is forgotten.
-void make_leaves_coarse(Mesh& mesh) {
+// The coarsest ancestor of each node whose edges are at most `patch_size` long (or the node itself), by node number.
+std::vector<std::uint32_t> patch_roots(const Mesh& mesh, const Bisection& bisection, float patch_size) {
+    std::vector<std::uint32_t> root(mesh.nodes.size(), no_index);
+    for (std::uint32_t n = 0; n < mesh.nodes.size(); ++n) { // parents come before children
+        if (root[n] == no_index) {
+            const int edge = bisection.longest_edge(n);
+            const glm::uvec3 v = mesh.nodes[n].vertices;
+            if (mesh.nodes[n].children == no_index ||
+                bisection.edge_length(v[edge], v[(edge + 1) % 3]) <= patch_size * patch_size)
+                root[n] = n;
+        }
+        if (root[n] != no_index && mesh.nodes[n].children != no_index)
+            root[mesh.nodes[n].children] = root[mesh.nodes[n].children + 1] = root[n];
+    }
+    return root;
+}
+
+// Leaves become the coarse elements; of what they were cut from only the patches are remembered.
+void make_leaves_coarse(Mesh& mesh, float patch_size) {
+    const std::vector<std::uint32_t> root = patch_roots(mesh, Bisection(mesh), patch_size);
+    std::vector<std::uint32_t> patch_of_root(mesh.nodes.size(), no_index);
     std::vector<MeshNode> leaves;
     std::vector<std::uint32_t> surface;
-    for (const MeshNode& node : mesh.nodes) {
+    for (std::uint32_t n = 0; n < mesh.nodes.size(); ++n) {
+        const MeshNode& node = mesh.nodes[n];
         if (node.children != no_index) continue;
+        if (patch_of_root[root[n]] == no_index) {
+            patch_of_root[root[n]] = static_cast<std::uint32_t>(mesh.patches.size());
+            mesh.patches.push_back(mesh.nodes[root[n]].vertices);
+        }
+        mesh.coarse_patch.push_back(patch_of_root[root[n]]);
         surface.push_back(mesh.coarse_surface[node.coarse]);
         leaves.push_back({node.vertices, static_cast<std::uint32_t>(leaves.size())});
     }
@@ -122,6 +149,7 @@ void add_back_sides(const Scene& scene, Mesh& mesh) {
         }
         return back_vertex[v];
     };
+    std::vector<std::uint32_t> back_patch(mesh.patches.size(), no_index);
     for (std::uint32_t e = 0; e < front_count; ++e) {
         if (!two_sided[mesh.coarse_surface[e]]) continue;
         const glm::uvec3 v = mesh.nodes[e].vertices;
@@ -131,6 +159,13 @@ void add_back_sides(const Scene& scene, Mesh& mesh) {
         mesh.coarse_back.push_back(1);
         mesh.coarse_twin[e] = back;
         mesh.coarse_twin.push_back(e);
+        const std::uint32_t patch = mesh.coarse_patch[e];
+        if (back_patch[patch] == no_index) {
+            back_patch[patch] = static_cast<std::uint32_t>(mesh.patches.size());
+            const glm::uvec3 p = mesh.patches[patch];
+            mesh.patches.push_back({back_of(p.x), back_of(p.z), back_of(p.y)});
+        }
+        mesh.coarse_patch.push_back(back_patch[patch]);
     }
 }
 
@@ -154,7 +189,7 @@ Mesh make_mesh(const Scene& scene, const MeshParams& params) {
     add_surface_triangles(scene, mesh);
     const double size = params.element_size > 0 ? params.element_size : automatic_element_size(scene);
     refine_to_size(mesh, static_cast<float>(size));
-    make_leaves_coarse(mesh);
+    make_leaves_coarse(mesh, static_cast<float>(elements_across_a_patch * size));
     add_back_sides(scene, mesh);
     mesh.coarse_vertex_count = static_cast<std::uint32_t>(mesh.vertices.size());
     mesh.coarse_element_count = static_cast<std::uint32_t>(mesh.nodes.size());

@@ -46,6 +46,11 @@ struct Mesh {
     std::vector<std::uint32_t> coarse_twin;    // the element of the other side, vertices 2 and 3 swapped; no_index: one-sided
     std::vector<float> coarse_area;            // m^2
 
+    // Patches, which shoot as one: neighbouring coarse elements cut from the same triangle (elements receive, larger patches shoot: Cohen,
+    // Greenberg, Immel & Brock 1986).
+    std::vector<std::uint32_t> coarse_patch;   // of each coarse element
+    std::vector<glm::uvec3> patches;           // corners: coarse vertices, counter-clockwise from the lit side
+
     // The leaves, which are drawn and interpolated.
     std::vector<glm::uvec3> elements;
     std::vector<std::uint32_t> element_coarse;

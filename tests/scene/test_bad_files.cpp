@@ -111,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"target error 0", small_scene + "[solve]\ntarget_error = 0\n", ":23:16:", "more than 0"},
         BadFile{"rays 0", small_scene + "[solve]\nmax_rays = 0\n", ":23:12:", "1..1048576"},
         BadFile{"seed a decimal", small_scene + "[solve]\nseed = 1.5\n", ":23:8:", "an integer"}),
-    [](const testing::TestParamInfo<BadFile>& info) { return fmt::format("Case{}", info.index); });
+    [](const auto& one) { return fmt::format("Case{}", one.index); });
 
 TEST_F(SceneTest, AllErrorsComeInOneGo) {
     write("bad.toml", R"(units = "mile"
@@ -157,7 +157,7 @@ TEST_F(SceneTest, PathsThatAreNoSceneAreTold) {
     std::filesystem::create_directories(folder / "folder.toml");
     EXPECT_THAT(testing::PrintToString(errors_of("folder.toml")), HasSubstr("folder.toml: is a folder"));
     write("scene.txt", small_scene);
-    EXPECT_THAT(testing::PrintToString(errors_of("scene.txt")), HasSubstr("\".txt\" is not a scene"));
+    EXPECT_THAT(testing::PrintToString(errors_of("scene.txt")), HasSubstr("is not a scene; .toml, .obj, .gltf or .glb is allowed"));
     for (const char* name : {"empty.obj", "empty.gltf", "empty.glb"}) {
         write(name, "");
         EXPECT_THAT(testing::PrintToString(errors_of(name)), HasSubstr("is empty")) << name;

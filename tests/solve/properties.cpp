@@ -180,7 +180,7 @@ TEST(Shooting, LuminairesShootFirstAndTheAmbientTermFillsIn) {
     Solution solution(std::make_shared<const Scene>(scene));
     const std::atomic<bool> never{false};
     while (solution.status().shots < 1) ASSERT_TRUE(solution.step(never));
-    EXPECT_EQ(solution.status().shooting_element, no_index); // a luminaire, not a patch
+    EXPECT_EQ(solution.status().shooting_patch, no_index); // a luminaire, not a patch
     // Places no lamp reaches are not black: the ambient term stands for the unshot flux.
     const std::vector<float> ambient = solution.state().ambient();
     ASSERT_EQ(ambient.size(), 31u);
