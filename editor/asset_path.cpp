@@ -15,6 +15,8 @@ std::filesystem::path asset_path(const std::filesystem::path& name) {
     return std::filesystem::path(LUEUR_SOURCE_DIR) / "assets" / name;
 }
 
-std::filesystem::path default_scene_file() { return asset_path("cornell.toml"); }
+std::filesystem::path default_scene_file() {
+    return asset_path("cornell.toml");
+}
 
 } // namespace lueur

@@ -5,7 +5,8 @@
 
 namespace lueur {
 
-// A file under assets/: beside the executable when it was moved there together with its assets, else in the source tree it was built from.
+// A file under assets/: beside the executable when it was moved there together with its assets, else in the source tree
+// it was built from.
 std::filesystem::path asset_path(const std::filesystem::path& name);
 
 std::filesystem::path default_scene_file(); // the measured Cornell box

@@ -6,10 +6,14 @@ namespace lueur {
 
 std::string to_string(SolveEnd end) {
     switch (end) {
-    case SolveEnd::settled: return "settled";
-    case SolveEnd::out_of_time: return "out of time";
-    case SolveEnd::cancelled: return "cancelled";
-    case SolveEnd::failed: return "failed";
+    case SolveEnd::settled:
+        return "settled";
+    case SolveEnd::out_of_time:
+        return "out of time";
+    case SolveEnd::cancelled:
+        return "cancelled";
+    case SolveEnd::failed:
+        return "failed";
     }
     return {};
 }

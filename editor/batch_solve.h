@@ -1,4 +1,5 @@
-// A whole solve in one call, for commands and tests: steps until the target error is met, the time is out or it is cancelled.
+// A whole solve in one call, for commands and tests: steps until the target error is met, the time is out or it is
+// cancelled.
 #pragma once
 
 #include <array>
@@ -10,7 +11,7 @@
 namespace lueur {
 
 struct BatchSolveParams {
-    double time_limit = 0; // s; 0: none. Not before the first sweep or shot: until then there is nothing to show
+    double time_limit = 0;      // s; 0: none. Not before the first sweep or shot: until then there is nothing to show
     bool geometry_only = false; // stop as soon as rays can be traced: the reference needs no field
     std::function<void(const SolveStatus&)> progress; // after each step, from the calling thread
 };

@@ -23,7 +23,9 @@ Document::Document(Scene scene, std::filesystem::path file)
     , saved_(scene_)
     , file_(std::move(file)) {}
 
-bool Document::modified() const { return *seen_from(saved_, *scene_) != *scene_; }
+bool Document::modified() const {
+    return *seen_from(saved_, *scene_) != *scene_;
+}
 
 std::expected<Stage, std::string> Document::apply(const Edit& edit) {
     auto after = lueur::apply(edit, *scene_);
@@ -46,15 +48,26 @@ std::expected<Stage, std::string> Document::apply(const Edit& edit) {
     return stage;
 }
 
-void Document::end_drag() { last_edit_.reset(); }
+void Document::end_drag() {
+    last_edit_.reset();
+}
 
-std::string Document::undo_text() const { return undo_.empty() ? std::string() : undo_.back().text; }
-std::string Document::redo_text() const { return redo_.empty() ? std::string() : redo_.back().text; }
+std::string Document::undo_text() const {
+    return undo_.empty() ? std::string() : undo_.back().text;
+}
+std::string Document::redo_text() const {
+    return redo_.empty() ? std::string() : redo_.back().text;
+}
 
-Stage Document::undo() { return exchange(undo_, redo_); }
-Stage Document::redo() { return exchange(redo_, undo_); }
+Stage Document::undo() {
+    return exchange(undo_, redo_);
+}
+Stage Document::redo() {
+    return exchange(redo_, undo_);
+}
 
-// Takes the last step of `from` and puts what it replaces onto `to`. What an edit makes stale, taking it back makes stale too.
+// Takes the last step of `from` and puts what it replaces onto `to`. What an edit makes stale, taking it back makes
+// stale too.
 Stage Document::exchange(std::vector<Step>& from, std::vector<Step>& to) {
     if (from.empty()) return Stage::nothing;
     Step step = std::move(from.back());

@@ -69,7 +69,8 @@ std::optional<std::string> change(const Edit& edit, Scene& scene) {
                     return {};
                 }
                 if (!e.texture->image || e.texture->image->rgb.empty())
-                    return fmt::format("texture {} has no picture; a texture must be read before it is used", e.texture->path);
+                    return fmt::format("texture {} has no picture; a texture must be read before it is used",
+                                       e.texture->path);
                 set_texture(scene, e.material, *e.texture);
                 return {};
             },
@@ -147,32 +148,33 @@ std::optional<std::string> change(const Edit& edit, Scene& scene) {
 } // namespace
 
 Stage first_stale_stage(const Edit& edit, const Scene& before) {
-    return std::visit(Overloaded{
-                          [](const SetReflectance&) { return Stage::reflectance; },
-                          [](const SetTexture&) { return Stage::reflectance; },
-                          [](const SetTwoSided&) { return Stage::mesh; }, // a second side is a second set of elements
-                          // The light stays as it is, but the solver keeps a reflectance a material, and here is a new one.
-                          [](const GiveOwnMaterial&) { return Stage::reflectance; },
-                          [&](const AssignMaterial& e) {
-                              if (at(e.object) >= before.objects.size() || at(e.material) >= before.materials.size())
-                                  return Stage::nothing;
-                              const auto now = before.objects[at(e.object)].material;
-                              if (now == e.material) return Stage::nothing;
-                              if (at(now) >= before.materials.size()) return Stage::mesh;
-                              const bool sides_change =
-                                  before.materials[at(now)].two_sided != before.materials[at(e.material)].two_sided;
-                              return sides_change ? Stage::mesh : Stage::reflectance;
-                          },
-                          [](const SetDimmer&) { return Stage::sources; },
-                          [](const SetPower&) { return Stage::sources; },
-                          [](const SetEmissionSpectrum&) { return Stage::sources; },
-                          [](const SetEmitSide&) { return Stage::mesh; }, // a side that emits must have elements
-                          [](const SetCamera&) { return Stage::view; },
-                          [](const SetDisplay&) { return Stage::display; },
-                          [&](const SetSolve& e) { return stage_of_settings(before.solve, e.solve); },
-                          [](const ReplaceScene&) { return Stage::mesh; },
-                      },
-                      edit);
+    return std::visit(
+        Overloaded{
+            [](const SetReflectance&) { return Stage::reflectance; },
+            [](const SetTexture&) { return Stage::reflectance; },
+            [](const SetTwoSided&) { return Stage::mesh; }, // a second side is a second set of elements
+            // The light stays as it is, but the solver keeps a reflectance a material, and here is a new one.
+            [](const GiveOwnMaterial&) { return Stage::reflectance; },
+            [&](const AssignMaterial& e) {
+                if (at(e.object) >= before.objects.size() || at(e.material) >= before.materials.size())
+                    return Stage::nothing;
+                const auto now = before.objects[at(e.object)].material;
+                if (now == e.material) return Stage::nothing;
+                if (at(now) >= before.materials.size()) return Stage::mesh;
+                const bool sides_change =
+                    before.materials[at(now)].two_sided != before.materials[at(e.material)].two_sided;
+                return sides_change ? Stage::mesh : Stage::reflectance;
+            },
+            [](const SetDimmer&) { return Stage::sources; },
+            [](const SetPower&) { return Stage::sources; },
+            [](const SetEmissionSpectrum&) { return Stage::sources; },
+            [](const SetEmitSide&) { return Stage::mesh; }, // a side that emits must have elements
+            [](const SetCamera&) { return Stage::view; },
+            [](const SetDisplay&) { return Stage::display; },
+            [&](const SetSolve& e) { return stage_of_settings(before.solve, e.solve); },
+            [](const ReplaceScene&) { return Stage::mesh; },
+        },
+        edit);
 }
 
 std::expected<Scene, std::string> apply(const Edit& edit, const Scene& scene) {

@@ -6,27 +6,34 @@ namespace lueur {
 
 std::string to_string(SolverKind solver) {
     switch (solver) {
-    case SolverKind::gathering: return "gathering";
-    case SolverKind::shooting: return "shooting";
+    case SolverKind::gathering:
+        return "gathering";
+    case SolverKind::shooting:
+        return "shooting";
     }
     return {};
 }
 
 std::string to_string(PictureQuantity quantity) {
     switch (quantity) {
-    case PictureQuantity::colour: return "colour";
-    case PictureQuantity::luminance: return "luminance";
-    case PictureQuantity::illuminance: return "illuminance";
+    case PictureQuantity::colour:
+        return "colour";
+    case PictureQuantity::luminance:
+        return "luminance";
+    case PictureQuantity::illuminance:
+        return "illuminance";
     }
     return {};
 }
 
 namespace {
-std::string coordinates(const glm::dvec3& v) { return fmt::format("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z); }
+std::string coordinates(const glm::dvec3& v) {
+    return fmt::format("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z);
+}
 } // namespace
 
-ImageMetadata picture_metadata(const Scene& scene, const std::filesystem::path& scene_file, const Camera& camera, const SolveStatus& status,
-                               PictureQuantity quantity) {
+ImageMetadata picture_metadata(const Scene& scene, const std::filesystem::path& scene_file, const Camera& camera,
+                               const SolveStatus& status, PictureQuantity quantity) {
     ImageMetadata metadata{
         {"lueur:version", LUEUR_VERSION},
         {"lueur:scene", scene_file.filename().string()},

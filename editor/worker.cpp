@@ -4,7 +4,6 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
-#include <exception>
 #include <mutex>
 #include <thread>
 
@@ -151,7 +150,7 @@ void Worker::State::run() {
         const std::uint32_t sweeps = solution->status().sweeps, shots = solution->status().shots;
         const SolveStage stage_before = solution->status().stage;
         do {
-            solution->step(cancel);
+            solution->step(cancel, single);
             // A single step shows something new: a sweep, a shot or the end of a stage.
         } while (single && !cancel.load() && !solution->status().settled && solution->status().stage != SolveStage::failed &&
                  solution->status().sweeps == sweeps && solution->status().shots == shots &&

@@ -72,7 +72,10 @@ private:
     void open(const std::filesystem::path& file);
     bool save(const std::filesystem::path& file);
     void apply(const Edit& edit);
-    void submit(Stage stage) { worker_.submit(document_.shared_scene(), document_.revision(), stage); }
+    void submit(Stage stage) {
+        submitted_revision_ = document_.revision();
+        worker_.submit(document_.shared_scene(), submitted_revision_, stage);
+    }
     void do_command(Command command);
     void ask_first(Pending pending);
     void do_pending();
@@ -100,7 +103,7 @@ private:
     bool quit_ = false;
     bool previewing_ = false;
     bool item_was_active_ = false;
-    std::uint64_t modified_revision_ = 0;
+    std::uint64_t modified_revision_ = 0, submitted_revision_ = 0;
     bool modified_ = false;
     int frames_left_ = 3;
     double wake_at_ = 0, last_frame_ = 0; // s
@@ -173,6 +176,8 @@ void App::apply(const Edit& edit) {
     if (*stage == Stage::nothing) return;
     // From the first change of the light on, the picture is not rescaled unasked.
     if (*stage < Stage::view && state_.exposure.chosen) state_.exposure.final = true;
+    // Camera and display are read from the document, frame by frame: the solver need not know.
+    if (std::holds_alternative<SetCamera>(edit) || std::holds_alternative<SetDisplay>(edit)) return;
     submit(narrowed(*stage, *before, document_.scene()));
 }
 
@@ -203,7 +208,7 @@ void App::do_command(Command command) {
     case Command::redo: {
         const auto before = document_.shared_scene();
         const auto stage = command == Command::undo ? document_.undo() : document_.redo();
-        if (stage != Stage::nothing) submit(narrowed(stage, *before, document_.scene()));
+        if (stage < Stage::display) submit(narrowed(stage, *before, document_.scene()));
         if (state_.selected && at(*state_.selected) >= document_.scene().objects.size()) state_.selected.reset();
         break;
     }
@@ -399,12 +404,18 @@ void App::log_facts() {
     const auto display = display_in_use(document_.scene().display, state_.exposure);
     log.fact("document_revision", fmt::format("{}", document_.revision()));
     log.fact("snapshot_document_revision", fmt::format("{}", snapshot_->document_revision));
-    log.fact("settled", truth(snapshot_->status.settled && snapshot_->document_revision == document_.revision()));
+    log.fact("settled", truth(snapshot_->status.settled && snapshot_->document_revision >= submitted_revision_ && !previewing_));
     log.fact("refined", truth(view_.refined));
     log.fact("max_display", fmt::format("{}", display.max_display));
     log.fact("gamma", fmt::format("{}", display.gamma));
     log.fact("srgb_curve", truth(display.curve == TransferCurve::srgb));
     log.fact("exposure_final", truth(state_.exposure.final || !document_.scene().display.max_display_auto));
+    std::string dimmers, separator;
+    for (const auto& luminaire : document_.scene().luminaires) {
+        dimmers += fmt::format("{}{}", separator, luminaire.dimmer);
+        separator = ",";
+    }
+    log.fact("dimmers", "[" + dimmers + "]");
     log.fact("selected", state_.selected ? fmt::format("{}", at(*state_.selected)) : "null");
     log.fact("pictures_being_saved", fmt::format("{}", screenshots_.running()));
     log.end_frame();

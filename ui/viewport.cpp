@@ -99,7 +99,9 @@ std::optional<Camera> steered(const Camera& before, const Bounds& bounds, Viewpo
 }
 
 // The largest unshot exitance seen since the scene was opened or restarted, rounded up to a decade.
-void update_unshot_top(const Snapshot& snapshot, UiState& state) {
+void update_unshot_top(const Snapshot& snapshot, ViewportState& view, UiState& state) {
+    if (snapshot.field == view.unshot_field && state.unshot_top > 0) return;
+    view.unshot_field = snapshot.field;
     float largest = 0;
     if (snapshot.field)
         for (const float value : snapshot.field->unshot) largest = std::max(largest, value);
@@ -173,7 +175,7 @@ std::optional<Edit> viewport(const Document& document, const Snapshot& snapshot,
         }
     }
 
-    if (known) update_unshot_top(snapshot, state);
+    if (known) update_unshot_top(snapshot, view, state);
     RenderParams params;
     params.width = view.width;
     params.height = view.height;

@@ -1,6 +1,7 @@
 // The picture in the middle: draws it, turns the mouse and the keys into camera movements and picks.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "editor/document.h"
@@ -22,6 +23,7 @@ struct ViewportState {
     bool refined = false;            // it has them
     double last_mesh_seconds = 0;
     bool drew_mesh = false;
+    std::shared_ptr<const Field> unshot_field; // whose largest unshot value has been looked for
     std::optional<Camera> home;      // the scene's own camera
 };
 

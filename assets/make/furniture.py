@@ -3,7 +3,7 @@ its user on the +z side. What touches something is sunk 1 mm into it, so that no
 import math
 import random
 
-from glb import (TAU, Mesh, Shape, block, box, cushion, cylinder, disk_capped, extrude, lathe, polygon, rectangle, rod,
+from glb import (TAU, Mesh, Shape, bevelled, block, box, cushion, cylinder, disk_capped, extrude, lathe, polygon, rectangle, rod,
                  rounded_outline, smooth_path, surface, tube, PICTURE_UV)
 
 SUNK = 0.001
@@ -20,8 +20,8 @@ def desk():
     mesh.add('grey steel', box((-0.5, 0.55, -0.33), (0.5, 0.552, -0.17)), box((-0.5, 0.551, -0.172), (0.5, 0.63, -0.17)),
              box((-0.5, 0.551, -0.33), (0.5, 0.63, -0.328)),
              box((-0.42, 0.629, -0.33), (-0.40, 0.715, -0.328)), box((0.40, 0.629, -0.33), (0.42, 0.715, -0.328)))
-    for x in (-0.3, -0.26, 0.22):  # cables down to the floor
-        mesh.add('black plastic', tube(smooth_path([(x, 0.56, -0.25), (x + 0.03, 0.4, -0.3), (x, 0.2, -0.27), (x + 0.02, -SUNK, -0.3)], 3), 0.004, 4))
+    for x in (-0.3, -0.24):  # cables down to the floor
+        mesh.add('black plastic', tube(smooth_path([(x, 0.56, -0.25), (x + 0.03, 0.4, -0.3), (x, 0.2, -0.27), (x + 0.02, -SUNK, -0.3)], 2), 0.004, 4))
     return mesh
 
 
@@ -32,15 +32,13 @@ def drawer_unit():
         y = 0.06 + 0.166 * k
         mesh.add('drawer front', box((-0.197, y, 0.259), (0.197, y + 0.160, 0.278)))
         mesh.add('brushed steel', box((-0.06, y + 0.125, 0.277), (0.06, y + 0.135, 0.296)))
-    for x in (-0.16, 0.16):
-        for z in (-0.22, 0.22):
-            mesh.add('black plastic', cylinder(0.024, -SUNK, 0.051, 8).moved(x, 0, z))
+    mesh.add('black plastic', box((-0.17, -SUNK, -0.24), (0.17, 0.051, 0.22)))
     return mesh
 
 
 def divider(width):
     mesh = Mesh('divider')
-    mesh.add('teal felt', cushion(width, 0.036, 0.46, 24, power=14).turned('x', 90).moved(0, 0.97, 0))
+    mesh.add('teal felt', bevelled(width, 0.46, 0.036, 0.008).moved(0, 0.97, 0))
     for x in (-0.55, 0.55):
         mesh.add('white steel', box((x - 0.03, 0.68, -0.008), (x + 0.03, 0.78, 0.008)))
     return mesh
@@ -50,7 +48,7 @@ def monitor(name, half):
     mesh = Mesh(name, solid=False)
     u = 0.5 * half
     tilt = Shape().add(box((-0.305, -0.175, -0.022), (0.305, 0.185, 0.004)))
-    back = Shape().add(cushion(0.36, 0.05, 0.24, 12, power=5).turned('x', 90).moved(0, 0.0, -0.03))
+    back = Shape().add(bevelled(0.36, 0.24, 0.05, 0.015).moved(0, 0.0, -0.03))
     screen = rectangle((-0.297, -0.160, 0.0048), (0.594, 0, 0), (0, 0.337, 0), [(u, 1), (u + 0.5, 1), (u + 0.5, 0), (u, 0)])
     for material, shape in (('black plastic', tilt), ('black plastic', back), ('screen picture', screen)):
         mesh.add(material, shape.turned('x', -5).moved(0, 0.36, 0))
@@ -75,7 +73,7 @@ def keyboard():
 
 def mouse():
     mesh = Mesh('mouse')
-    rows = [[(0.031 * s * math.cos(TAU * k / 12), y + 0.004 * math.sin(TAU * k / 12) * (y > 0.01), -0.055 * s * math.sin(TAU * k / 12))
+    rows = [[(0.031 * s * math.cos(TAU * k / 12), y + 0.004 * s * math.sin(TAU * k / 12) * (y > 0.01), -0.055 * s * math.sin(TAU * k / 12))
              for k in range(12)] for s, y in ((0, -SUNK), (0.95, -SUNK), (1, 0.008), (0.9, 0.024), (0.55, 0.036), (0, 0.039))]
     mesh.add('black plastic', surface(rows, closed_u=True))
     return mesh
@@ -84,25 +82,25 @@ def mouse():
 def mug(material):
     mesh = Mesh('mug, ' + material)
     mesh.add(material, lathe([(0, 0.008), (0.035, 0.008), (0.0365, 0.093), (0.0385, 0.096), (0.0405, 0.093), (0.040, 0.01),
-                              (0.034, -SUNK), (0, -SUNK)][::-1], 16).flipped())
+                              (0.034, -SUNK), (0, -SUNK)][::-1], 12).flipped())
     handle = [(0.038, 0.075, 0), (0.062, 0.078, 0), (0.070, 0.052, 0), (0.058, 0.026, 0), (0.038, 0.024, 0)]
-    mesh.add(material, tube(smooth_path(handle, 2), 0.0055, 6))
+    mesh.add(material, tube(smooth_path(handle, 2), 0.0055, 5))
     return mesh
 
 
 def pen_cup():
     mesh = Mesh('pen cup')
-    mesh.add('grey steel', lathe([(0, 0.004), (0.036, 0.004), (0.036, 0.100), (0.039, 0.100), (0.039, -SUNK), (0, -SUNK)][::-1], 14).flipped())
+    mesh.add('grey steel', lathe([(0, 0.004), (0.036, 0.004), (0.036, 0.100), (0.039, 0.100), (0.039, -SUNK), (0, -SUNK)][::-1], 12).flipped())
     for k, material in enumerate(('book red', 'book navy', 'black plastic', 'book ochre')):
         a = 1.3 + 1.7 * k
-        mesh.add(material, rod((0.012 * math.cos(a), 0.006, 0.012 * math.sin(a)), (0.030 * math.cos(a), 0.15 + 0.01 * k, 0.030 * math.sin(a)), 0.004, 6))
+        mesh.add(material, rod((0.012 * math.cos(a), 0.006, 0.012 * math.sin(a)), (0.030 * math.cos(a), 0.15 + 0.01 * k, 0.030 * math.sin(a)), 0.004, 4))
     return mesh
 
 
-def book(mesh, cover, low, high, top='+y'):
-    """A closed book: the top edge shows its paper."""
-    mesh.add(cover, box(low, high, without=(top,)))
-    mesh.add('paper', box(low, high, without=tuple({'-x', '+x', '-y', '+y', '-z', '+z'} - {top})))
+def book(mesh, cover, low, high, top='+y', hidden=('-y', '-z')):
+    """The top edge shows its paper. In a shelf a book's foot and its back edge are never seen."""
+    mesh.add(cover, box(low, high, without=(top,) + hidden))
+    mesh.add('paper', box(low, high, without=tuple(sorted({'-x', '+x', '-y', '+y', '-z', '+z'} - {top}))))
 
 
 def paper_stack(seed):
@@ -139,47 +137,46 @@ def task_chair(fabric):
 
     def back(x, y, z):  # lies down: z is the height, y the thickness
         return x, y + 0.9 * x * x - 0.05 * math.sin((z + 0.30) / 0.60 * math.pi) + 0.02, z
-    mesh.add(fabric, cushion(0.50, 0.075, 0.48, 16, bend=seat).moved(0, 0.475, 0.02))
-    mesh.add(fabric, cushion(0.45, 0.045, 0.60, 16, bend=back).turned('x', -97).moved(0, 0.86, -0.27))
+    mesh.add(fabric, cushion(0.50, 0.075, 0.48, 14, (0, 0.65, 0.95, 1), bend=seat).moved(0, 0.475, 0.02))
+    mesh.add(fabric, cushion(0.45, 0.045, 0.60, 14, (0, 0.45, 0.78, 0.95, 1), bend=back).turned('x', -97).moved(0, 0.86, -0.27))
     spine = smooth_path([(0, 0.40, -0.06), (0, 0.415, -0.24), (0, 0.52, -0.315), (0, 0.74, -0.30)], 3)
-    mesh.add('black plastic', tube(spine, lambda t: 0.026 - 0.008 * t, 8), block(0.22, 0.06, 0.24, y=0.385, z=0.0))
+    mesh.add('black plastic', tube(spine, lambda t: 0.026 - 0.008 * t, 6), block(0.22, 0.06, 0.24, y=0.385, z=0.0))
     for s in (-1, 1):
         arm = smooth_path([(s * 0.10, 0.42, 0.0), (s * 0.26, 0.43, 0.0), (s * 0.285, 0.54, -0.01), (s * 0.285, 0.665, -0.01)], 2)
-        mesh.add('black plastic', tube(arm, 0.014, 6))
-        mesh.add('black plastic', cushion(0.075, 0.03, 0.25, 10, rings=(0, 0.8, 1.0), power=3).moved(s * 0.285, 0.675, 0.03))
-    mesh.add('brushed steel', cylinder(0.016, 0.22, 0.39, 10))
-    mesh.add('black plastic', disk_capped([(0.026, 0.25), (0.028, 0.12)], 10))
-    mesh.add('polished aluminium', disk_capped([(0.036, 0.125), (0.045, 0.105), (0.045, 0.068)], 12))
+        mesh.add('black plastic', tube(arm, 0.014, 5))
+        mesh.add('black plastic', cushion(0.075, 0.03, 0.25, 8, rings=(0, 0.85, 1.0), power=3).moved(s * 0.285, 0.675, 0.03))
+    mesh.add('brushed steel', cylinder(0.016, 0.22, 0.39, 8))
+    mesh.add('black plastic', disk_capped([(0.026, 0.25), (0.028, 0.12)], 8))
+    mesh.add('polished aluminium', disk_capped([(0.036, 0.125), (0.045, 0.068)], 10))
     for k in range(5):
         a = 360 / 5 * k + 90
-        leg = tube([(0.02, 0.098, 0), (0.16, 0.092, 0), (0.305, 0.068, 0)], lambda t: 0.024 - 0.009 * t, 6)
+        leg = tube([(0.02, 0.098, 0), (0.16, 0.090, 0), (0.305, 0.055, 0)], lambda t: 0.024 - 0.009 * t, 5)
         mesh.add('polished aluminium', leg.turned('y', a))
-        wheel = disk_capped([(0.019, 0.021), (0.026, 0.014), (0.026, -0.014), (0.019, -0.021)], 10).turned('x', 90).moved(0.30, 0.025, 0)
-        mesh.add('black plastic', wheel.turned('y', a), rod((0.295, 0.03, 0), (0.295, 0.075, 0), 0.008, 6).turned('y', a))
+        wheel = disk_capped([(0.025, 0.020), (0.025, -0.020)], 8).turned('x', 90).moved(0.30, 0.025, 0)
+        mesh.add('black plastic', wheel.turned('y', a))
     return mesh
 
 
 def meeting_chair(shell):
     mesh = Mesh('meeting chair, ' + shell)
     profile = smooth_path([(0.205, 0.425), (0.16, 0.448), (0.0, 0.438), (-0.14, 0.445), (-0.205, 0.50), (-0.235, 0.62), (-0.255, 0.82)], 2)
-    nu, rows = 8, {1: [], -1: []}
+    nu, rows = 6, {1: [], -1: []}
     n = len(profile)
     for v, (z, y) in enumerate(profile):
         t = v / (n - 1)
         width = 0.235 - 0.03 * abs(t - 0.55) - 0.05 * max(0, t - 0.8) ** 2 * 25
+        upright = min(1.0, max(0.0, (t - 0.35) / 0.4))  # seat -> back
         for side in (1, -1):
             row = []
             for u in range(nu + 1):
                 s = 2 * u / nu - 1
-                curl = 0.055 * s ** 4 if t < 0.6 else 0.055 * s ** 4 * 1.1
-                forward = curl * (1.0 if t > 0.55 else 0.25)
-                lift = curl * (0.15 if t > 0.6 else 1.0)
-                off = 0.005 * side
-                row.append((width * s * (1 - 0.06 * s * s), y + lift + off * (1 if t < 0.55 else 0.3), z + forward + off * (0.2 if t < 0.55 else 1)))
+                curl, off = 0.055 * s ** 4, 0.005 * side
+                row.append((width * s * (1 - 0.06 * s * s), y + curl * (1 - 0.85 * upright) + off * (1 - 0.7 * upright),
+                            z + curl * (0.25 + 0.75 * upright) + off * (0.2 + 0.8 * upright)))
             rows[side].append(row)
     rim = [r[0] for r in rows[1]], [r[-1] for r in rows[1]], [r[0] for r in rows[-1]], [r[-1] for r in rows[-1]]
     mesh.add(shell, surface(rows[1]), surface(rows[-1]).flipped())
-    mesh.add(shell, surface([rim[0], rim[2]]).flipped(), surface([rim[1], rim[3]]))
+    mesh.add(shell, surface([rim[0], rim[2]]), surface([rim[1], rim[3]]).flipped())
     mesh.add(shell, surface([rows[1][0], rows[-1][0]]).flipped(), surface([rows[1][-1], rows[-1][-1]]))
     for sx in (-1, 1):
         for z0, z1 in ((0.15, 0.21), (-0.13, -0.22)):
@@ -200,7 +197,7 @@ def meeting_table():
 def bookcase(seed, name):
     """0.9 m wide, 2.1 m high, 0.32 m deep; its back to -z."""
     generator = random.Random(seed)
-    mesh = Mesh(name)
+    mesh = Mesh(name, solid=False)
     mesh.add('white laminate', box((-0.45, -SUNK, -0.16), (-0.428, 2.1, 0.16)), box((0.428, -SUNK, -0.16), (0.45, 2.1, 0.16)),
              box((-0.429, 0.0, -0.158), (0.429, 2.09, -0.148)), box((-0.429, -SUNK, 0.10), (0.429, 0.071, 0.12)),
              box((-0.429, 2.078, -0.149), (0.429, 2.0999, 0.159)))
@@ -214,9 +211,9 @@ def bookcase(seed, name):
             binder = generator.choice(['book navy', 'book grey', 'book plum'])
             while x + 0.082 < (0.42 if level == 0 else 0.15):
                 if generator.random() > 0.08:
-                    mesh.add(binder, box((x, floor, -0.13), (x + 0.075, floor + 0.32, 0.145)))
-                    mesh.add('paper', box((x + 0.012, floor + 0.16, 0.1445), (x + 0.063, floor + 0.29, 0.1458)))
-                    mesh.add('black plastic', disk_capped([(0.012, 0.0015), (0.012, -0.0005)], 8).turned('x', 90).moved(x + 0.0375, floor + 0.06, 0.145))
+                    mesh.add(binder, box((x, floor, -0.13), (x + 0.075, floor + 0.32, 0.145), ('-y', '-z')))
+                    mesh.add('paper', rectangle((x + 0.012, floor + 0.16, 0.146), (0.051, 0, 0), (0, 0.13, 0)))
+                    mesh.add('black plastic', polygon([(x + 0.0375 + 0.012 * math.cos(TAU * k / 8), floor + 0.06 + 0.012 * math.sin(TAU * k / 8), 0.146) for k in range(8)]))
                 x += 0.0775
         stop = generator.choice([0.41, 0.41, 0.3, 0.16])
         run = 0
@@ -236,12 +233,12 @@ def bookcase(seed, name):
             yy = floor
             for _ in range(generator.randint(2, 5)):
                 thick, w = generator.uniform(0.018, 0.04), generator.uniform(0.15, min(0.24, room - 0.03))
-                book(mesh, generator.choice(covers), (x + 0.02, yy, -0.11), (x + 0.02 + w, yy + thick, 0.12), '+x')
+                book(mesh, generator.choice(covers), (x + 0.02, yy, -0.11), (x + 0.02 + w, yy + thick, 0.12), '+x', ('-z',))
                 yy += thick - 0.0005
         elif room > 0.07:  # one that leans on its neighbours
             leaning = Mesh('')
             h = 0.24
-            book(leaning, generator.choice(covers), (0, 0, -0.06), (0.025, h, 0.125))
+            book(leaning, generator.choice(covers), (0, 0, -0.06), (0.025, h, 0.125), hidden=('-z',))
             for material, shape in leaning.parts.items():
                 mesh.add(material, shape.turned('z', 11).moved(x + 0.048, floor, 0))
     return mesh
@@ -330,13 +327,13 @@ def bin_():
 
 def coat_stand():
     mesh = Mesh('coat stand')
-    mesh.add('beech', disk_capped([(0.02, 0.03), (0.19, 0.024), (0.20, -SUNK)], 20), cylinder(0.022, 0.025, 1.75, 10, 0.018))
+    mesh.add('beech', disk_capped([(0.02, 0.03), (0.19, 0.024), (0.20, -SUNK)], 20), cylinder(0.022, 0.025, 1.75, 8, 0.018))
     mesh.add('beech', lathe([(0, 1.79), (0.018, 1.783), (0.026, 1.765), (0.018, 1.745), (0, 1.742)], 10))
     for k in range(6):
         low = k % 2
         arm = smooth_path([(0.01, 1.60 - 0.2 * low, 0), (0.10, 1.63 - 0.2 * low, 0), (0.15, 1.70 - 0.2 * low, 0)], 3)
-        mesh.add('beech', tube(arm, lambda t: 0.012 - 0.003 * t, 6).turned('y', 60 * k))
-        mesh.add('beech', lathe([(0, 0.016), (0.013, 0.008), (0.013, -0.008), (0, -0.016)], 8, 90).moved(0.152, 1.705 - 0.2 * low, 0).turned('y', 60 * k))
+        mesh.add('beech', tube(arm, lambda t: 0.012 - 0.003 * t, 5).turned('y', 60 * k))
+        mesh.add('beech', lathe([(0, 0.016), (0.013, 0.008), (0.013, -0.008), (0, -0.016)], 6, 90).moved(0.152, 1.705 - 0.2 * low, 0).turned('y', 60 * k))
     return mesh
 
 

@@ -117,6 +117,45 @@ def box(low, high, without=()):
     return Shape().add(*[polygon(points, PICTURE_UV) for name, points in faces.items() if name not in without])
 
 
+def bevelled(width, height, depth, bevel):
+    """A box around the origin whose edges and corners are cut off; its faces stay flat."""
+    half = (width / 2, height / 2, depth / 2)
+
+    def corner(signs, whole):
+        return tuple(s * (h if k == whole else h - bevel) for k, (s, h) in enumerate(zip(signs, half)))
+
+    def outwards(points):
+        middle = (0, 0, 0)
+        for p in points:
+            middle = add(middle, p)
+        shape = polygon(points)
+        return shape if dot(shape.vertices[0][1], middle) > 0 else polygon(points[::-1])
+
+    shape = Shape()
+    for k in range(3):
+        i, j = (k + 1) % 3, (k + 2) % 3
+        for s in (-1, 1):
+            ring = []
+            for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1)):
+                signs = [0, 0, 0]
+                signs[k], signs[i], signs[j] = s, a, b
+                ring.append(tuple(signs))
+            shape.add(outwards([corner(signs, k) for signs in ring]))
+        for a in (-1, 1):
+            for b in (-1, 1):
+                ends = []
+                for s in (-1, 1):
+                    signs = [0, 0, 0]
+                    signs[k], signs[i], signs[j] = s, a, b
+                    ends.append(tuple(signs))
+                shape.add(outwards([corner(ends[0], i), corner(ends[1], i), corner(ends[1], j), corner(ends[0], j)]))
+    for x in (-1, 1):
+        for y in (-1, 1):
+            for z in (-1, 1):
+                shape.add(outwards([corner((x, y, z), k) for k in range(3)]))
+    return shape
+
+
 def block(width, height, depth, x=0.0, y=0.0, z=0.0, without=()):
     """A box that stands on y, centred on x and z."""
     return box((x - width / 2, y, z - depth / 2), (x + width / 2, y + height, z + depth / 2), without)
@@ -462,7 +501,7 @@ def report(model):
     """What is wrong with the meshes: degenerate triangles, normals against their faces, open edges of what should be solid."""
     faults = []
     for mesh in model.meshes:
-        edges = {}
+        edges, volume = {}, 0.0
         for material, shape in mesh.parts.items():
             for p, n, _ in shape.vertices:
                 if not all(math.isfinite(c) for c in p + tuple(n)) or abs(length(n) - 1) > 1e-5:
@@ -470,6 +509,7 @@ def report(model):
             for triangle in shape.triangles:
                 a, b, c = (shape.vertices[i][0] for i in triangle)
                 face = cross(sub(b, a), sub(c, a))
+                volume += dot(a, cross(b, c)) / 6
                 if length(face) < 1e-9:
                     faults.append('%s, %s: degenerate triangle at %s' % (mesh.name, material, a))
                     continue
@@ -482,4 +522,6 @@ def report(model):
         open_edges = sum(1 for (u, v), count in edges.items() if edges.get((v, u), 0) != count)
         if open_edges and mesh.solid:
             faults.append('%s: %d open edges' % (mesh.name, open_edges))
+        if mesh.solid and volume <= 0:
+            faults.append('%s: inside out' % mesh.name)
     return faults

@@ -392,7 +392,7 @@ def carpet():
     for j in range(4):
         for i in range(4):
             tiles[i, j] = generator.uniform(0.95, 1.05) * (1.035 if (i + j) % 2 else 0.965)
-    base = colour('#6f747a')
+    base = colour('#80868b')
 
     def paint(x, y):
         i, j = int(x / 128), int(y / 128)
@@ -401,7 +401,7 @@ def carpet():
         fleck = 0.11 if noise.at(along / 4 + 7, across / 2 + 3) > 0.72 else 0.0
         seam = min(x % 128, 128 - x % 128, y % 128, 128 - y % 128)
         tone = shade(base, tiles[i, j] * (1 + loop - 0.10 * smooth(2.0, 0.5, seam)))
-        return mix(tone, colour('#8c9a9a'), fleck * 3)
+        return mix(tone, colour('#a3aeae'), fleck * 3)
     return Canvas(n, n, paint)
 
 
@@ -425,9 +425,11 @@ def ceiling():
 
 def grain(x, y, noise, dark, light):
     """Wood whose grain runs along x; x and y in millimetres."""
-    ring = 0.5 + 0.5 * math.sin(0.16 * y + 5.0 * noise.layers(x / 700, y / 90, 3))
-    fibre = 0.5 + 0.5 * noise.layers(x / 60, y / 1.6, 2)
-    return mix(light, dark, 0.55 * ring * ring + 0.35 * fibre)
+    ring = 0.5 + 0.5 * math.sin(0.13 * y + 8.0 * noise.layers(x / 800, y / 110, 3))
+    fade = 0.5 + 0.5 * noise.at(x / 900 + 3, y / 130)
+    tone = noise.layers(x / 1200, y / 60, 2)
+    fibre = 0.5 + 0.5 * noise.layers(x / 90, y / 3.2, 2)
+    return mix(light, dark, (0.14 + 0.22 * fade) * ring * ring + 0.42 * fibre + 0.14 * tone)
 
 
 def oak():
@@ -454,8 +456,8 @@ def parquet():
         shifted = (mx + (0, 610, 1130, 380, 930, 210, 1340, 760)[j]) % 3200
         i = int(shifted / 1600)
         tone, phase, warm = planks[i, j]
-        result = grain(shifted % 1600 + 900 * phase, my % 160 + 300 * phase, noise, colour('#8c5f38'), colour('#c2935f'))
-        result = mix(shade(result, tone), shade(colour('#b98f63'), tone), 0.25 * warm)
+        result = grain(shifted % 1600 + 900 * phase, my % 160 + 300 * phase, noise, colour('#8a6a4a'), colour('#b99a74'))
+        result = mix(shade(result, tone), shade(colour('#b39672'), tone), 0.25 * warm)
         seam = min(shifted % 1600, 1600 - shifted % 1600, my % 160, 160 - my % 160)
         return shade(result, 1 - 0.45 * smooth(4.0, 1.2, seam))
     return Canvas(w, h, paint)

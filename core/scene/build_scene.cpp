@@ -27,7 +27,7 @@ struct SceneBuilder {
     bool names_complete = said.names_complete;
     std::map<std::string, MaterialIndex> material_named{};
     std::map<std::string, ObjectIndex> object_named{};
-    std::size_t imported_objects = 0; // the first of scene.objects
+    std::size_t imported_objects = 0;                            // the first of scene.objects
     std::vector<bool> reflectance_said{}, reflectance_is_tint{}; // of each material
     std::vector<ImportedEmission> emission{};
     std::map<std::string, std::shared_ptr<const TextureImage>> pictures{}; // "office.glb*0"
@@ -63,12 +63,15 @@ std::string known_names(const std::string& wrong, std::vector<std::string> names
     if (names.size() <= 12) return allowed_words(wrong, names);
     const std::string words = allowed_words(wrong, names);
     const std::size_t hint = words.find("? allowed");
-    return hint == std::string::npos ? fmt::format("one of the {} that there are is allowed", names.size()) : words.substr(0, hint + 1);
+    return hint == std::string::npos ? fmt::format("one of the {} that there are is allowed", names.size())
+                                     : words.substr(0, hint + 1);
 }
 
 std::optional<MaterialIndex> SceneBuilder::material_of(const std::string& name, Place place) {
     if (const auto found = material_named.find(name); found != material_named.end()) return found->second;
-    if (names_complete) error(place, fmt::format("material \"{}\" is not there; {}", name, known_names(name, names_of(material_named))));
+    if (names_complete)
+        error(place,
+              fmt::format("material \"{}\" is not there; {}", name, known_names(name, names_of(material_named))));
     return {};
 }
 
@@ -76,7 +79,8 @@ void SceneBuilder::start_materials() {
     for (const MaterialEntry& entry : said.materials) {
         const MaterialIndex index{static_cast<std::uint32_t>(scene.materials.size())};
         if (!material_named.try_emplace(entry.name.name, index).second) {
-            error(entry.name.place, fmt::format("material \"{}\" is there twice; one of each name is allowed", entry.name.name));
+            error(entry.name.place,
+                  fmt::format("material \"{}\" is there twice; one of each name is allowed", entry.name.name));
             continue;
         }
         Material material;
@@ -89,7 +93,8 @@ void SceneBuilder::start_materials() {
 
 MaterialIndex SceneBuilder::add_material(Material imported) {
     const bool textured = imported.texture.has_value();
-    const auto [found, fresh] = material_named.try_emplace(imported.name, MaterialIndex{static_cast<std::uint32_t>(scene.materials.size())});
+    const auto [found, fresh] =
+        material_named.try_emplace(imported.name, MaterialIndex{static_cast<std::uint32_t>(scene.materials.size())});
     if (fresh) {
         scene.materials.push_back(std::move(imported));
         reflectance_said.push_back(true);
@@ -111,8 +116,8 @@ void SceneBuilder::import(const GeometryEntry& entry) {
         scene.sources.emplace_back(std::move(source));
         return;
     }
-    std::optional<ImportedModel> model =
-        import_model({path, entry.file.path, entry.file.unit.value_or(said.unit), entry.file.up.value_or(said.up)}, diagnostics);
+    std::optional<ImportedModel> model = import_model(
+        {path, entry.file.path, entry.file.unit.value_or(said.unit), entry.file.up.value_or(said.up)}, diagnostics);
     if (!model) {
         names_complete = false;
         return;
@@ -134,7 +139,8 @@ void SceneBuilder::import(const GeometryEntry& entry) {
     facts->emissive = !model->emission.empty();
     if (entry.imported_emission)
         for (const ImportedEmission& glow : model->emission)
-            emission.push_back({ObjectIndex{static_cast<std::uint32_t>(at(glow.object)) + first}, glow.radiance, glow.side});
+            emission.push_back(
+                {ObjectIndex{static_cast<std::uint32_t>(at(glow.object)) + first}, glow.radiance, glow.side});
     for (const auto& [picture, image] : model->pictures) pictures[entry.file.path + picture] = image;
     if (!imported_camera) imported_camera = model->camera;
 
@@ -142,7 +148,8 @@ void SceneBuilder::import(const GeometryEntry& entry) {
     soup.vertices.insert(soup.vertices.end(), model->soup.vertices.begin(), model->soup.vertices.end());
     for (std::size_t i = 0; i < model->soup.triangles.size(); ++i) {
         soup.triangles.push_back(model->soup.triangles[i] + base);
-        soup.triangle_object.push_back(ObjectIndex{static_cast<std::uint32_t>(at(model->soup.triangle_object[i])) + first});
+        soup.triangle_object.push_back(
+            ObjectIndex{static_cast<std::uint32_t>(at(model->soup.triangle_object[i])) + first});
     }
     source.imported = std::move(facts);
     scene.sources.emplace_back(std::move(source));
@@ -156,7 +163,8 @@ void SceneBuilder::finish_materials() {
             material.reflectance = *entry.reflectance;
             reflectance_is_tint[index] = false;
         } else if (!reflectance_said[index] && !entry.texture && names_complete)
-            error(entry.name.place, fmt::format("material \"{}\" has no reflectance; reflectance = 0..1, [r, g, b], {{ file = \"...\" }}, or a texture is needed",
+            error(entry.name.place, fmt::format("material \"{}\" has no reflectance; reflectance = 0..1, [r, g, b], {{ "
+                                                "file = \"...\" }}, or a texture is needed",
                                                 entry.name.name));
         reflectance_said[index] = reflectance_said[index] || entry.reflectance;
         if (entry.two_sided) material.two_sided = *entry.two_sided;
@@ -168,22 +176,27 @@ void SceneBuilder::polygons() {
     for (const PolygonEntry& entry : said.polygons) {
         const InlinePolygon& polygon = entry.polygon;
         const std::optional<MaterialIndex> material = material_of(polygon.material, entry.material_place);
-        const auto [found, fresh] = object_named.try_emplace(polygon.name, ObjectIndex{static_cast<std::uint32_t>(scene.objects.size())});
+        const auto [found, fresh] =
+            object_named.try_emplace(polygon.name, ObjectIndex{static_cast<std::uint32_t>(scene.objects.size())});
         const ObjectIndex object = found->second;
         if (fresh)
             scene.objects.push_back({polygon.name, material.value_or(MaterialIndex{})});
         else if (at(object) < imported_objects)
-            error(entry.name_place, fmt::format("an object of a geometry file is named \"{}\"; another name is allowed", polygon.name));
+            error(entry.name_place,
+                  fmt::format("an object of a geometry file is named \"{}\"; another name is allowed", polygon.name));
         else if (material && scene.objects[at(object)].material != *material)
-            error(entry.material_place, fmt::format("object \"{}\" has material \"{}\" already; polygons of one name have one material", polygon.name,
-                                                    scene.materials[at(scene.objects[at(object)].material)].name));
+            error(entry.material_place,
+                  fmt::format("object \"{}\" has material \"{}\" already; polygons of one name have one material",
+                              polygon.name, scene.materials[at(scene.objects[at(object)].material)].name));
         scene.sources.emplace_back(polygon);
         if (polygon.vertices.empty()) continue; // told
         std::vector<glm::dvec3> corners;
-        for (const glm::dvec3& vertex : polygon.vertices) corners.push_back(world_from_file(vertex, said.unit, said.up));
+        for (const glm::dvec3& vertex : polygon.vertices)
+            corners.push_back(world_from_file(vertex, said.unit, said.up));
         const auto triangles = triangulate(corners);
         if (!triangles) {
-            error(entry.vertices_place, fmt::format("polygon \"{}\" {}; a simple polygon is allowed", polygon.name, triangles.error()));
+            error(entry.vertices_place,
+                  fmt::format("polygon \"{}\" {}; a simple polygon is allowed", polygon.name, triangles.error()));
             continue;
         }
         const auto base = static_cast<std::uint32_t>(soup.vertices.size());
@@ -206,12 +219,18 @@ void SceneBuilder::object_materials() {
         const auto material = material_of(entry.material.name, entry.material.place);
         const auto found = object_named.find(entry.object.name);
         if (!seen.insert(entry.object.name).second)
-            error(entry.object.place, fmt::format("object \"{}\" is there twice; one [[object]] of each name is allowed", entry.object.name));
+            error(
+                entry.object.place,
+                fmt::format("object \"{}\" is there twice; one [[object]] of each name is allowed", entry.object.name));
         else if (found == object_named.end()) {
             if (names_complete)
-                error(entry.object.place, fmt::format("object \"{}\" is in no geometry file; {}", entry.object.name, known_names(entry.object.name, names_of(object_named))));
+                error(entry.object.place, fmt::format("object \"{}\" is in no geometry file; {}", entry.object.name,
+                                                      known_names(entry.object.name, names_of(object_named))));
         } else if (at(found->second) >= imported_objects)
-            error(entry.object.place, fmt::format("object \"{}\" is a [[polygon]], which names its own material; [[object]] is for geometry files", entry.object.name));
+            error(entry.object.place,
+                  fmt::format(
+                      "object \"{}\" is a [[polygon]], which names its own material; [[object]] is for geometry files",
+                      entry.object.name));
         else if (material)
             scene.objects[at(found->second)].material = *material;
     }
@@ -225,7 +244,8 @@ void SceneBuilder::load_textures() {
         const std::string& path = entry.texture->path;
         if (path == "none") {
             if (reflectance_is_tint[index]) material.reflectance = 0.5;
-            if (!reflectance_said[index]) error(entry.texture->place, "texture \"none\" leaves no reflectance; reflectance is needed");
+            if (!reflectance_said[index])
+                error(entry.texture->place, "texture \"none\" leaves no reflectance; reflectance is needed");
             material.texture.reset();
             reflectance_is_tint[index] = false;
             continue;
@@ -235,7 +255,8 @@ void SceneBuilder::load_textures() {
             const auto found = pictures.find(path);
             if (found == pictures.end()) {
                 if (names_complete)
-                    error(entry.texture->place, fmt::format("texture \"{}\" is inside no geometry file; {}", path, known_names(path, names_of(pictures))));
+                    error(entry.texture->place, fmt::format("texture \"{}\" is inside no geometry file; {}", path,
+                                                            known_names(path, names_of(pictures))));
                 continue;
             }
             image = found->second;
@@ -267,7 +288,10 @@ void SceneBuilder::mean_reflectances() {
             material.reflectance = (tint ? *tint : Rgb(1)) * material.texture->mean;
         }
         if (has_no_uv(scene.geometry->vertices, triangles))
-            diagnostics.warning(file, {}, fmt::format("material \"{}\" has a texture, but what it covers has no texture coordinates", material.name));
+            diagnostics.warning(
+                file, {},
+                fmt::format("material \"{}\" has a texture, but what it covers has no texture coordinates",
+                            material.name));
     }
 }
 
@@ -278,16 +302,23 @@ void SceneBuilder::luminaires() {
     for (const LuminaireEntry& entry : said.luminaires) {
         Luminaire luminaire = entry.luminaire;
         if (!names.try_emplace(luminaire.name, entry.name_place).second)
-            error(entry.name_place, fmt::format("luminaire \"{}\" is there twice; one of each name is allowed", luminaire.name));
+            error(entry.name_place,
+                  fmt::format("luminaire \"{}\" is there twice; one of each name is allowed", luminaire.name));
         for (const PlacedName& object : entry.objects) {
             const auto found = object_named.find(object.name);
             if (found == object_named.end()) {
-                if (names_complete) error(object.place, fmt::format("object \"{}\" is not there; {}", object.name, known_names(object.name, names_of(object_named))));
+                if (names_complete)
+                    error(object.place, fmt::format("object \"{}\" is not there; {}", object.name,
+                                                    known_names(object.name, names_of(object_named))));
                 continue;
             }
-            const auto [other, fresh] = lit_by.try_emplace(static_cast<std::uint32_t>(at(found->second)), luminaire.name);
+            const auto [other, fresh] =
+                lit_by.try_emplace(static_cast<std::uint32_t>(at(found->second)), luminaire.name);
             if (!fresh)
-                error(object.place, fmt::format("object \"{}\" is lit by luminaire \"{}\" already; one luminaire an object is allowed", object.name, other->second));
+                error(
+                    object.place,
+                    fmt::format("object \"{}\" is lit by luminaire \"{}\" already; one luminaire an object is allowed",
+                                object.name, other->second));
             luminaire.objects.push_back(found->second);
         }
         unique.take(luminaire.name);
@@ -307,23 +338,28 @@ void SceneBuilder::luminaires() {
 }
 
 void SceneBuilder::last_warnings() {
-    const bool dark = std::all_of(scene.luminaires.begin(), scene.luminaires.end(),
-                                  [](const Luminaire& luminaire) { return luminaire.power == 0 || luminaire.dimmer == 0; });
-    if (dark) diagnostics.warning(file, {}, "nothing emits; the picture will be black");
-    const bool white = !scene.objects.empty() && std::all_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
-        const Reflectance& reflectance = scene.materials[at(object.material)].reflectance;
-        const double* grey = std::get_if<double>(&reflectance);
-        const Rgb* rgb = std::get_if<Rgb>(&reflectance);
-        return (grey && *grey == 1) || (rgb && *rgb == Rgb(1));
+    const bool dark = std::all_of(scene.luminaires.begin(), scene.luminaires.end(), [](const Luminaire& luminaire) {
+        return luminaire.power == 0 || luminaire.dimmer == 0;
     });
-    if (white) diagnostics.warning(file, {}, "every surface reflects all light (reflectance 1); in a closed scene the light grows without end");
+    if (dark) diagnostics.warning(file, {}, "nothing emits; the picture will be black");
+    const bool white =
+        !scene.objects.empty() && std::all_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
+            const Reflectance& reflectance = scene.materials[at(object.material)].reflectance;
+            const double* grey = std::get_if<double>(&reflectance);
+            const Rgb* rgb = std::get_if<Rgb>(&reflectance);
+            return (grey && *grey == 1) || (rgb && *rgb == Rgb(1));
+        });
+    if (white)
+        diagnostics.warning(
+            file, {},
+            "every surface reflects all light (reflectance 1); in a closed scene the light grows without end");
     for (const std::string& fault : check(scene)) diagnostics.warning(file, {}, fault);
 }
 
 } // namespace
 
-std::optional<Scene> build_scene(const SceneDescription& description, const std::string& file, const std::filesystem::path& folder,
-                                 Diagnostics& diagnostics) {
+std::optional<Scene> build_scene(const SceneDescription& description, const std::string& file,
+                                 const std::filesystem::path& folder, Diagnostics& diagnostics) {
     SceneBuilder builder{description, file, folder, diagnostics};
     Scene& scene = builder.scene;
     scene.name = description.name;
@@ -342,7 +378,8 @@ std::optional<Scene> build_scene(const SceneDescription& description, const std:
     builder.load_textures();
     builder.luminaires();
     if (description.geometry.empty() && description.polygons.empty() && description.names_complete)
-        diagnostics.error(file, {}, "there is nothing in the scene; at least one [[geometry]] or [[polygon]] is needed");
+        diagnostics.error(file, {},
+                          "there is nothing in the scene; at least one [[geometry]] or [[polygon]] is needed");
     if (!diagnostics.errors.empty()) return {};
 
     std::vector<std::string> left_out;
@@ -353,7 +390,9 @@ std::optional<Scene> build_scene(const SceneDescription& description, const std:
         return {};
     }
     builder.mean_reflectances();
-    scene.camera = description.camera ? *description.camera : builder.imported_camera ? *builder.imported_camera : frame_scene(*scene.geometry);
+    scene.camera = description.camera        ? *description.camera
+                   : builder.imported_camera ? *builder.imported_camera
+                                             : frame_scene(*scene.geometry);
     builder.last_warnings();
     return std::move(scene);
 }

@@ -9,8 +9,9 @@
 
 namespace lueur {
 
-// `file` is the scene file's name for messages; paths are seen from `folder`. Nothing where there were errors, here or before.
-std::optional<Scene> build_scene(const SceneDescription& description, const std::string& file, const std::filesystem::path& folder,
-                                 Diagnostics& diagnostics);
+// `file` is the scene file's name for messages; paths are seen from `folder`. Nothing where there were errors, here or
+// before.
+std::optional<Scene> build_scene(const SceneDescription& description, const std::string& file,
+                                 const std::filesystem::path& folder, Diagnostics& diagnostics);
 
 } // namespace lueur

@@ -21,7 +21,9 @@ struct Checker {
     }
 };
 
-bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool finite(const glm::dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 void check_material(Checker& checker, const Material& material) {
     const std::string what = fmt::format("material \"{}\": reflectance", material.name);
@@ -36,7 +38,9 @@ void check_material(Checker& checker, const Material& material) {
                 break;
             }
     }
-    if (material.texture) checker.expect(material.texture->image != nullptr, fmt::format("material \"{}\": the texture has no picture", material.name), "a picture");
+    if (material.texture)
+        checker.expect(material.texture->image != nullptr,
+                       fmt::format("material \"{}\": the texture has no picture", material.name), "a picture");
 }
 
 void check_luminaire(Checker& checker, const Scene& scene, const Luminaire& luminaire, const Wavelengths& wavelengths) {
@@ -46,7 +50,8 @@ void check_luminaire(Checker& checker, const Scene& scene, const Luminaire& lumi
     checker.range(luminaire.dimmer, 0, 1e6, what + "dimmer", "0..1e6");
     checker.expect(!luminaire.objects.empty(), what + "it names no object", "at least one");
     for (const ObjectIndex object : luminaire.objects)
-        checker.expect(at(object) < scene.objects.size(), fmt::format("{}object {} is not there", what, at(object)), "an object of the scene");
+        checker.expect(at(object) < scene.objects.size(), fmt::format("{}object {} is not there", what, at(object)),
+                       "an object of the scene");
     if (const Rgb* rgb = std::get_if<Rgb>(&luminaire.spectrum))
         for (int k = 0; k < 3; ++k) checker.range((*rgb)[k], 0, 1e12, what + "spectrum", "0..1e12");
     if (const auto* file = std::get_if<SpectrumFile>(&luminaire.spectrum)) {
@@ -57,7 +62,8 @@ void check_luminaire(Checker& checker, const Scene& scene, const Luminaire& lumi
                 break;
             }
     }
-    if (const auto* body = std::get_if<Blackbody>(&luminaire.spectrum)) checker.range(body->kelvin, 1000, 25000, what + "blackbody", "1000..25000 K");
+    if (const auto* body = std::get_if<Blackbody>(&luminaire.spectrum))
+        checker.range(body->kelvin, 1000, 25000, what + "blackbody", "1000..25000 K");
     if (checker.faults.size() != before || luminaire.power == 0 || luminaire.dimmer == 0) return;
     if (!(emitting_area(scene, luminaire) > 0)) {
         checker.faults.push_back(what + "its objects have no area, so it emits nothing");
@@ -65,7 +71,8 @@ void check_luminaire(Checker& checker, const Scene& scene, const Luminaire& lumi
     }
     const std::vector<double> exitance = exitance_channels(scene, luminaire, wavelengths);
     if (std::none_of(exitance.begin(), exitance.end(), [](double channel) { return channel != 0; }))
-        checker.faults.push_back(fmt::format("{}its spectrum has no power in {}, so it emits nothing", what, to_string(wavelengths.spec)));
+        checker.faults.push_back(
+            fmt::format("{}its spectrum has no power in {}, so it emits nothing", what, to_string(wavelengths.spec)));
 }
 
 } // namespace
@@ -74,22 +81,26 @@ std::vector<std::string> check(const Scene& scene) {
     Checker checker;
     for (const Material& material : scene.materials) check_material(checker, material);
     for (const Object& object : scene.objects)
-        checker.expect(at(object.material) < scene.materials.size(), fmt::format("object \"{}\": material {} is not there", object.name, at(object.material)),
+        checker.expect(at(object.material) < scene.materials.size(),
+                       fmt::format("object \"{}\": material {} is not there", object.name, at(object.material)),
                        "a material of the scene");
     const Wavelengths wavelengths = make_wavelengths(scene.solve.wavelengths);
     for (const Luminaire& luminaire : scene.luminaires) check_luminaire(checker, scene, luminaire, wavelengths);
 
     const Camera& camera = scene.camera;
-    checker.expect(finite(camera.position) && finite(camera.target) && finite(camera.up), "camera: a position or direction is not finite", "a finite number");
+    checker.expect(finite(camera.position) && finite(camera.target) && finite(camera.up),
+                   "camera: a position or direction is not finite", "a finite number");
     const glm::dvec3 forward = camera.target - camera.position;
     checker.expect(glm::length(forward) > 0, "camera: the target is where the camera stands", "another point");
     if (glm::length(forward) > 0)
-        checker.expect(glm::length(glm::cross(forward, camera.up)) > 1e-9 * glm::length(forward) * glm::length(camera.up),
+        checker.expect(glm::length(glm::cross(forward, camera.up)) >
+                           1e-9 * glm::length(forward) * glm::length(camera.up),
                        "camera: it looks along its up direction", "any other up");
     checker.range(camera.vertical_fov_degrees, 1, 170, "camera: vertical field of view", "1..170 degrees");
 
     const SolveSettings& solve = scene.solve;
-    checker.expect(solve.target_error > 0 && solve.target_error <= 1, fmt::format("solve: target error is {}", solve.target_error), "more than 0, at most 1");
+    checker.expect(solve.target_error > 0 && solve.target_error <= 1,
+                   fmt::format("solve: target error is {}", solve.target_error), "more than 0, at most 1");
     checker.range(solve.element_size, 0, 1e12, "solve: element size", "0 or more");
     checker.range(solve.max_rays, 1, 1 << 20, "solve: most rays a receiver", "1..1048576");
     for (const std::string& fault : check(scene.display)) checker.faults.push_back(fault);

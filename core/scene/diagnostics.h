@@ -17,8 +17,12 @@ struct Place {
 struct Diagnostics {
     std::vector<std::string> errors, warnings;
 
-    void error(const std::string& file, Place place, std::string_view what) { errors.push_back(text(file, place, what)); }
-    void warning(const std::string& file, Place place, std::string_view what) { warnings.push_back(text(file, place, what)); }
+    void error(const std::string& file, Place place, std::string_view what) {
+        errors.push_back(text(file, place, what));
+    }
+    void warning(const std::string& file, Place place, std::string_view what) {
+        warnings.push_back(text(file, place, what));
+    }
 
 private:
     static std::string text(const std::string& file, Place place, std::string_view what) {

@@ -15,7 +15,8 @@ std::optional<std::string> why_unreadable(const std::filesystem::path& file);
 std::expected<std::string, std::string> read_bytes(const std::filesystem::path& file);
 
 // `path` as seen from `folder`, written as seen from `other`. Absolute paths stay as they are.
-std::string path_from_folder(const std::string& path, const std::filesystem::path& folder, const std::filesystem::path& other);
+std::string path_from_folder(const std::string& path, const std::filesystem::path& folder,
+                             const std::filesystem::path& other);
 
 // "office.glb*0" is picture 0 inside office.glb.
 struct EmbeddedPicture {

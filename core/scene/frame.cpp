@@ -17,11 +17,12 @@ Camera frame_scene(const Geometry& geometry) {
     const glm::dvec3 centre = (low + high) / 2.0, extent = high - low;
     double volume = 0; // by the divergence theorem; negative where surfaces face inwards
     for (const glm::uvec3& t : geometry.triangles) {
-        const glm::dvec3 a = glm::dvec3(geometry.vertices[t.x].position) - centre, b = glm::dvec3(geometry.vertices[t.y].position) - centre,
+        const glm::dvec3 a = glm::dvec3(geometry.vertices[t.x].position) - centre,
+                         b = glm::dvec3(geometry.vertices[t.y].position) - centre,
                          c = glm::dvec3(geometry.vertices[t.z].position) - centre;
         volume += glm::dot(a, glm::cross(b, c)) / 6;
     }
-    if (volume < -0.2 * extent.x * extent.y * extent.z) {
+    if (volume < -0.5 * extent.x * extent.y * extent.z) {
         const bool along_x = extent.x > extent.z;
         const glm::dvec3 share = along_x ? glm::dvec3(0.45, 0.1, 0.3) : glm::dvec3(0.3, 0.1, 0.45);
         camera.position = centre + share * extent;

@@ -18,9 +18,12 @@ namespace lueur {
 namespace {
 
 glm::dmat4 matrix_from(const aiMatrix4x4& m) { // assimp keeps rows
-    return glm::transpose(glm::dmat4(m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, m.d1, m.d2, m.d3, m.d4));
+    return glm::transpose(
+        glm::dmat4(m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, m.d1, m.d2, m.d3, m.d4));
 }
-glm::dvec3 vector_from(const aiVector3D& v) { return {v.x, v.y, v.z}; }
+glm::dvec3 vector_from(const aiVector3D& v) {
+    return {v.x, v.y, v.z};
+}
 
 struct GltfReader {
     const ImportRequest& request;
@@ -50,7 +53,8 @@ struct GltfReader {
             warning(fmt::format("light \"{}\" left out: only surfaces emit here", file.mLights[i]->mName.C_Str()));
         if (lines_and_points) warning(fmt::format("{} lines and points left out: they have no area", lines_and_points));
         if (file.mNumAnimations) warning("animations left out: the scene is shown as it stands");
-        if (model.soup.triangles.empty() && !failed) error("has no triangles; at least one mesh of triangles is needed");
+        if (model.soup.triangles.empty() && !failed)
+            error("has no triangles; at least one mesh of triangles is needed");
     }
 
     void embedded(unsigned i) {
@@ -65,7 +69,8 @@ struct GltfReader {
     }
 
     // The picture and the path that names it in a scene file.
-    std::optional<Texture> texture_of(const aiMaterial& material, aiTextureType type, const std::string& material_name) {
+    std::optional<Texture> texture_of(const aiMaterial& material, aiTextureType type,
+                                      const std::string& material_name) {
         aiString path;
         if (material.GetTexture(type, 0, &path) != AI_SUCCESS) return {};
         Texture texture;
@@ -78,16 +83,21 @@ struct GltfReader {
             std::string uri = path.C_Str();
             auto image = read_texture(request.file.parent_path() / uri);
             if (!image) {
-                warning(fmt::format("texture of material \"{}\" left out, its mean colour stays the base colour: {}", material_name, image.error()));
+                warning(fmt::format("texture of material \"{}\" left out, its mean colour stays the base colour: {}",
+                                    material_name, image.error()));
                 return {};
             }
-            texture.path = (std::filesystem::path(request.written).parent_path() / uri).lexically_normal().generic_string();
+            texture.path =
+                (std::filesystem::path(request.written).parent_path() / uri).lexically_normal().generic_string();
             texture.image = std::make_shared<const TextureImage>(std::move(*image));
         }
         aiUVTransform transform;
         if (material.Get(AI_MATKEY_UVTRANSFORM(type, 0), transform) == AI_SUCCESS &&
-            (transform.mScaling != aiVector2D(1, 1) || transform.mTranslation != aiVector2D(0, 0) || transform.mRotation != 0))
-            warning(fmt::format("texture of material \"{}\" is scaled, moved or turned (KHR_texture_transform): left out", material_name));
+            (transform.mScaling != aiVector2D(1, 1) || transform.mTranslation != aiVector2D(0, 0) ||
+             transform.mRotation != 0))
+            warning(
+                fmt::format("texture of material \"{}\" is scaled, moved or turned (KHR_texture_transform): left out",
+                            material_name));
         return texture;
     }
 
@@ -102,11 +112,13 @@ struct GltfReader {
 
         aiColor4D base(0.5f, 0.5f, 0.5f, 1), glow(0, 0, 0, 1);
         const bool has_base = source.Get(AI_MATKEY_BASE_COLOR, base) == AI_SUCCESS;
-        if (!has_base) warning(fmt::format("material \"{}\" has no base colour; its reflectance becomes 0.5", result.name));
+        if (!has_base)
+            warning(fmt::format("material \"{}\" has no base colour; its reflectance becomes 0.5", result.name));
         const Rgb colour{base.r, base.g, base.b};
         for (int k = 0; k < 3; ++k)
             if (!(colour[k] >= 0 && colour[k] <= 1)) {
-                error(fmt::format("material \"{}\": base colour {} is out of range; 0..1 is allowed", result.name, colour[k]));
+                error(fmt::format("material \"{}\": base colour {} is out of range; 0..1 is allowed", result.name,
+                                  colour[k]));
                 return made;
             }
         result.reflectance = colour;
@@ -123,11 +135,13 @@ struct GltfReader {
             warning(fmt::format("material \"{}\" is transparent; it is taken as opaque", result.name));
 
         source.Get(AI_MATKEY_COLOR_EMISSIVE, glow);
-        const double strength = index < json.emissive_strength.size() ? json.emissive_strength[index] : 1; // assimp keeps the file's order
+        const double strength =
+            index < json.emissive_strength.size() ? json.emissive_strength[index] : 1; // assimp keeps the file's order
         Rgb radiance = Rgb(glow.r, glow.g, glow.b) * strength;
         for (int k = 0; k < 3; ++k)
             if (!(radiance[k] >= 0 && radiance[k] < 1e12)) {
-                error(fmt::format("material \"{}\": emission {} is out of range; 0 or more is allowed", result.name, radiance[k]));
+                error(fmt::format("material \"{}\": emission {} is out of range; 0 or more is allowed", result.name,
+                                  radiance[k]));
                 radiance = Rgb(0);
             }
         emission.push_back(radiance);
@@ -159,11 +173,14 @@ struct GltfReader {
             const MaterialIndex made = material(index);
             if (failed) return;
             object = ObjectIndex{static_cast<std::uint32_t>(model.objects.size())};
-            model.objects.push_back({object_names.take(object_of.size() == 1 ? wanted : wanted + "." + model.materials[at(made)].name), made});
+            model.objects.push_back(
+                {object_names.take(object_of.size() == 1 ? wanted : wanted + "." + model.materials[at(made)].name),
+                 made});
         }
         for (unsigned i = 0; i < here.mNumMeshes; ++i) {
             const aiMesh& one = *file.mMeshes[here.mMeshes[i]];
-            if (const auto object = object_of.find(one.mMaterialIndex); object != object_of.end()) mesh(one, object->second, world_from_node);
+            if (const auto object = object_of.find(one.mMaterialIndex); object != object_of.end())
+                mesh(one, object->second, world_from_node);
         }
         for (const auto& [index, object] : object_of) emit(object);
         if (!model.camera) camera(here, world_from_node);
@@ -175,7 +192,8 @@ struct GltfReader {
         const double determinant = glm::determinant(linear);
         const bool mirrored = determinant < 0; // glTF 2.0, 3.7.4: then clockwise triangles face forward
         // Normals go with the cofactors (inverse transpose times the determinant), which a flattened node still has.
-        const glm::dmat3 cofactors(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]), glm::cross(linear[0], linear[1]));
+        const glm::dmat3 cofactors(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
+                                   glm::cross(linear[0], linear[1]));
         unsigned uv_channel = 0;
         file.mMaterials[mesh.mMaterialIndex]->Get(AI_MATKEY_UVWSRC(aiTextureType_BASE_COLOR, 0), uv_channel);
         const bool has_uv = uv_channel < AI_MAX_NUMBER_OF_TEXTURECOORDS && mesh.HasTextureCoords(uv_channel);
@@ -188,7 +206,9 @@ struct GltfReader {
                 const double length = glm::length(normal);
                 if (std::isfinite(length) && length > 0) vertex.normal = glm::vec3(normal / length);
             }
-            if (has_uv) vertex.uv = {mesh.mTextureCoords[uv_channel][i].x, 1 - mesh.mTextureCoords[uv_channel][i].y}; // assimp turned v up
+            if (has_uv)
+                vertex.uv = {mesh.mTextureCoords[uv_channel][i].x,
+                             1 - mesh.mTextureCoords[uv_channel][i].y}; // assimp turned v up
             model.soup.vertices.push_back(vertex);
         }
         for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
@@ -199,7 +219,8 @@ struct GltfReader {
             }
             glm::uvec3 corners{face.mIndices[0], face.mIndices[1], face.mIndices[2]};
             if (std::max({corners.x, corners.y, corners.z}) >= mesh.mNumVertices) {
-                error(fmt::format("mesh \"{}\" names vertex {}; it has {}", mesh.mName.C_Str(), std::max({corners.x, corners.y, corners.z}), mesh.mNumVertices));
+                error(fmt::format("mesh \"{}\" names vertex {}; it has {}", mesh.mName.C_Str(),
+                                  std::max({corners.x, corners.y, corners.z}), mesh.mNumVertices));
                 return;
             }
             if (mirrored) std::swap(corners.y, corners.z);
@@ -218,20 +239,21 @@ struct GltfReader {
                 if (model.soup.triangle_object[i] == object) triangles.push_back(model.soup.triangles[i]);
             radiance *= mean_texel(*picture, model.soup.vertices, triangles);
         }
-        model.emission.push_back({object, radiance, model.materials[at(material_index)].two_sided ? EmitSide::both : EmitSide::front});
+        model.emission.push_back(
+            {object, radiance, model.materials[at(material_index)].two_sided ? EmitSide::both : EmitSide::front});
     }
 
     void camera(const aiNode& here, const glm::dmat4& world_from_node) {
         for (unsigned i = 0; i < file.mNumCameras; ++i) {
             const aiCamera& source = *file.mCameras[i];
-            if (source.mName != here.mName || source.mOrthographicWidth > 0) continue;
+            if (source.mName != here.mName) continue;
             const glm::dmat3 linear(world_from_node);
             Camera seen;
-            seen.position = glm::dvec3(world_from_node * glm::dvec4(vector_from(source.mPosition), 1));
-            seen.target = seen.position + linear * vector_from(source.mLookAt);
-            seen.up = linear * vector_from(source.mUp);
-            const double aspect = source.mAspect > 0 ? source.mAspect : 1;
-            const double fov = 2 * std::atan(std::tan(source.mHorizontalFOV / 2.0) / aspect) * 180 / 3.14159265358979323846;
+            seen.position =
+                glm::dvec3(world_from_node[3]); // in its node it stands at 0 and looks along -z: glTF 2.0, 3.10
+            seen.target = seen.position - linear[2];
+            seen.up = linear[1];
+            const double fov = i < json.vertical_fov.size() ? json.vertical_fov[i] * 180 / 3.14159265358979323846 : 0;
             const double bend = glm::length(glm::cross(seen.target - seen.position, seen.up));
             if (!(fov >= 1 && fov <= 170) || !std::isfinite(bend) || bend == 0) continue;
             seen.vertical_fov_degrees = fov;
@@ -258,7 +280,8 @@ std::optional<ImportedModel> read_gltf(const ImportRequest& request, Diagnostics
         if (!file || !file->mRootNode) {
             std::string what = importer.GetErrorString();
             std::replace(what.begin(), what.end(), '\n', ' ');
-            diagnostics.error(name, {}, fmt::format("{}; a glTF 2.0 file is allowed", what.empty() ? "cannot be read" : what));
+            diagnostics.error(name, {},
+                              fmt::format("{}; a glTF 2.0 file is allowed", what.empty() ? "cannot be read" : what));
             return {};
         }
         GltfReader reader{request, diagnostics, *file, *json};

@@ -10,7 +10,10 @@
 namespace lueur {
 
 struct GltfJson {
-    std::vector<double> emissive_strength; // of each material; 1 where nothing is said (KHR_materials_emissive_strength)
+    std::vector<double>
+        emissive_strength;            // of each material; 1 where nothing is said (KHR_materials_emissive_strength)
+    std::vector<double> vertical_fov; // of each camera, radians; 0 where it has none: assimp's versions disagree on
+                                      // what they make of it
 };
 
 // `bytes` is a whole .gltf or .glb. Nothing where it is neither; then there is an error.

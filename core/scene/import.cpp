@@ -14,7 +14,8 @@ std::optional<ImportedModel> import_model(const ImportRequest& request, Diagnost
     const std::string extension = lower_case_extension(request.file);
     const bool obj = extension == ".obj", gltf = extension == ".gltf" || extension == ".glb";
     if (!obj && !gltf) {
-        diagnostics.error(request.file.string(), {}, fmt::format("\"{}\" is not a geometry file; .obj, .gltf or .glb is allowed", extension));
+        diagnostics.error(request.file.string(), {},
+                          fmt::format("\"{}\" is not a geometry file; .obj, .gltf or .glb is allowed", extension));
         return {};
     }
     return obj ? read_obj(request, diagnostics) : read_gltf(request, diagnostics);

@@ -1,7 +1,7 @@
 // Geometry files as they are: .obj with its .mtl, and .gltf, .glb.
 //
-// OBJ is read here (obj_file.cpp, mtl_file.cpp) and not by assimp, which drops a face with an index out of range, takes "nan" as 0 and
-// gives no line. glTF goes through assimp (gltf_file.cpp, the only code that sees it).
+// OBJ is read here (obj_file.cpp, mtl_file.cpp) and not by assimp, which drops a face with an index out of range, takes
+// "nan" as 0 and gives no line. glTF goes through assimp (gltf_file.cpp, the only code that sees it).
 #pragma once
 
 #include <expected>
@@ -21,9 +21,9 @@ namespace lueur {
 
 struct ImportRequest {
     std::filesystem::path file;
-    std::string written;                   // its path as the scene file writes it; paths of its textures are written beside it
-    LengthUnit unit = LengthUnit::metre;   // of an .obj
-    UpAxis up = UpAxis::y;                 // of an .obj
+    std::string written; // its path as the scene file writes it; paths of its textures are written beside it
+    LengthUnit unit = LengthUnit::metre; // of an .obj
+    UpAxis up = UpAxis::y;               // of an .obj
 };
 
 struct ImportedEmission { // OBJ Ke, glTF emissive factor: radiance per channel
@@ -35,13 +35,15 @@ struct ImportedEmission { // OBJ Ke, glTF emissive factor: radiance per channel
 struct ImportedModel {
     TriangleSoup soup; // metres, Y up; its objects are those below
     std::vector<Object> objects;
-    std::vector<Material> materials; // of a textured one the reflectance is what its texels are multiplied by (glTF base colour, MTL Kd)
+    std::vector<Material>
+        materials; // of a textured one the reflectance is what its texels are multiplied by (glTF base colour, MTL Kd)
     std::vector<ImportedEmission> emission;
     std::map<std::string, std::shared_ptr<const TextureImage>> pictures; // inside the file: "*0", ...
     std::optional<Camera> camera;
 };
 
-// Nothing where the file is unusable; then there is an error in `diagnostics`. Names of objects and materials are unique in the model.
+// Nothing where the file is unusable; then there is an error in `diagnostics`. Names of objects and materials are
+// unique in the model.
 std::optional<ImportedModel> import_model(const ImportRequest& request, Diagnostics& diagnostics);
 
 // The two behind it.

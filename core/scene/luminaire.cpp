@@ -34,7 +34,9 @@ double own_integral(const Spectrum& spectrum) {
     return spectrum.nm.empty() ? 0 : integral(spectrum, spectrum.nm.front(), spectrum.nm.back(), Outside::zero);
 }
 
-double ratio(double numerator, double denominator) { return denominator > 0 ? numerator / denominator : 0; }
+double ratio(double numerator, double denominator) {
+    return denominator > 0 ? numerator / denominator : 0;
+}
 
 // Lumens and watts of the relative spectrum, taken as an exitance, a square metre.
 struct Fluxes {
@@ -47,7 +49,8 @@ Fluxes relative_fluxes(const EmissionSpectrum& emission) {
     return {xyz_from_channels(rgb, channels).y, watts_from_channels(rgb, channels)};
 }
 
-// What the relative spectrum is multiplied by to become W m^-2 nm^-1, at dimmer 1, for a unit that counts emitted energy itself.
+// What the relative spectrum is multiplied by to become W m^-2 nm^-1, at dimmer 1, for a unit that counts emitted
+// energy itself.
 double exitance_scale(const Luminaire& luminaire, double exitance) {
     const auto spectrum = samples(luminaire.spectrum);
     return spectrum ? ratio(exitance, own_integral(*spectrum)) : exitance;
@@ -57,10 +60,14 @@ double flux(const Scene& scene, const Luminaire& luminaire, double Fluxes::*want
     const Fluxes relative = relative_fluxes(luminaire.spectrum);
     const double area = emitting_area(scene, luminaire);
     switch (luminaire.unit) {
-    case PowerUnit::lumen: return area > 0 ? luminaire.dimmer * luminaire.power * ratio(relative.*wanted, relative.lumens) : 0;
-    case PowerUnit::watt: return area > 0 ? luminaire.dimmer * luminaire.power * ratio(relative.*wanted, relative.watts) : 0;
-    case PowerUnit::exitance: return luminaire.dimmer * area * exitance_scale(luminaire, luminaire.power) * relative.*wanted;
-    case PowerUnit::radiance: return luminaire.dimmer * area * exitance_scale(luminaire, pi * luminaire.power) * relative.*wanted;
+    case PowerUnit::lumen:
+        return area > 0 ? luminaire.dimmer * luminaire.power * ratio(relative.*wanted, relative.lumens) : 0;
+    case PowerUnit::watt:
+        return area > 0 ? luminaire.dimmer * luminaire.power * ratio(relative.*wanted, relative.watts) : 0;
+    case PowerUnit::exitance:
+        return luminaire.dimmer * area * exitance_scale(luminaire, luminaire.power) * relative.*wanted;
+    case PowerUnit::radiance:
+        return luminaire.dimmer * area * exitance_scale(luminaire, pi * luminaire.power) * relative.*wanted;
     }
     return 0;
 }
@@ -76,27 +83,36 @@ double emitting_area(const Scene& scene, const Luminaire& luminaire) {
     for (std::size_t i = 0; i < geometry.triangles.size(); ++i) {
         if (!emits[at(geometry.surfaces[at(geometry.triangle_surface[i])].object)]) continue;
         const glm::uvec3& t = geometry.triangles[i];
-        const glm::dvec3 a(geometry.vertices[t.x].position), b(geometry.vertices[t.y].position), c(geometry.vertices[t.z].position);
+        const glm::dvec3 a(geometry.vertices[t.x].position), b(geometry.vertices[t.y].position),
+            c(geometry.vertices[t.z].position);
         area += glm::length(glm::cross(b - a, c - a)) / 2;
     }
     switch (luminaire.side) {
     case EmitSide::front:
-    case EmitSide::back: return area;
-    case EmitSide::both: return 2 * area;
+    case EmitSide::back:
+        return area;
+    case EmitSide::both:
+        return 2 * area;
     }
     return area;
 }
 
 std::vector<double> exitance_channels(const Scene& scene, const Luminaire& luminaire, const Wavelengths& wavelengths) {
     const auto spectrum = samples(luminaire.spectrum);
-    std::vector<double> channels =
-        spectrum ? emission_channels(wavelengths, *spectrum) : emission_channels(wavelengths, std::get<Rgb>(luminaire.spectrum));
+    std::vector<double> channels = spectrum ? emission_channels(wavelengths, *spectrum)
+                                            : emission_channels(wavelengths, std::get<Rgb>(luminaire.spectrum));
     const auto per_square_metre = [&] { return ratio(luminaire.power, emitting_area(scene, luminaire)); };
     double scale = 0;
     switch (luminaire.unit) {
-    case PowerUnit::lumen: scale = ratio(per_square_metre(), xyz_from_channels(wavelengths, channels).y); break;
-    case PowerUnit::watt: scale = ratio(per_square_metre(), watts_from_channels(wavelengths, channels)); break;
-    case PowerUnit::exitance: scale = spectrum ? ratio(luminaire.power, watts_from_channels(wavelengths, channels)) : luminaire.power; break;
+    case PowerUnit::lumen:
+        scale = ratio(per_square_metre(), xyz_from_channels(wavelengths, channels).y);
+        break;
+    case PowerUnit::watt:
+        scale = ratio(per_square_metre(), watts_from_channels(wavelengths, channels));
+        break;
+    case PowerUnit::exitance:
+        scale = spectrum ? ratio(luminaire.power, watts_from_channels(wavelengths, channels)) : luminaire.power;
+        break;
     case PowerUnit::radiance:
         scale = pi * (spectrum ? ratio(luminaire.power, watts_from_channels(wavelengths, channels)) : luminaire.power);
         break;
@@ -106,10 +122,11 @@ std::vector<double> exitance_channels(const Scene& scene, const Luminaire& lumin
 }
 
 std::vector<double> reflectance_channels(const Reflectance& reflectance, const Wavelengths& wavelengths) {
-    return std::visit(Overload{[&](double grey) { return std::vector<double>(static_cast<std::size_t>(wavelengths.size()), grey); },
-                               [&](const Rgb& rgb) { return reflectance_channels(wavelengths, rgb); },
-                               [&](const SpectrumFile& file) { return reflectance_channels(wavelengths, file.spectrum); }},
-                      reflectance);
+    return std::visit(
+        Overload{[&](double grey) { return std::vector<double>(static_cast<std::size_t>(wavelengths.size()), grey); },
+                 [&](const Rgb& rgb) { return reflectance_channels(wavelengths, rgb); },
+                 [&](const SpectrumFile& file) { return reflectance_channels(wavelengths, file.spectrum); }},
+        reflectance);
 }
 
 std::vector<std::optional<LuminaireIndex>> luminaire_of_objects(const Scene& scene) {
@@ -120,8 +137,12 @@ std::vector<std::optional<LuminaireIndex>> luminaire_of_objects(const Scene& sce
     return result;
 }
 
-double luminous_flux(const Scene& scene, const Luminaire& luminaire) { return flux(scene, luminaire, &Fluxes::lumens); }
+double luminous_flux(const Scene& scene, const Luminaire& luminaire) {
+    return flux(scene, luminaire, &Fluxes::lumens);
+}
 
-double radiant_flux(const Scene& scene, const Luminaire& luminaire) { return flux(scene, luminaire, &Fluxes::watts); }
+double radiant_flux(const Scene& scene, const Luminaire& luminaire) {
+    return flux(scene, luminaire, &Fluxes::watts);
+}
 
 } // namespace lueur

@@ -25,7 +25,8 @@ struct MtlReader {
     std::optional<Rgb> colour(const std::vector<Word>& words, double high, std::string_view allowed) {
         const std::size_t count = words.size() - 1;
         if (count >= 1 && (words[1].text == "spectral" || words[1].text == "xyz")) {
-            error(words[1], fmt::format("{} {} is not supported; three numbers {} are allowed", words[0].text, words[1].text, allowed));
+            error(words[1], fmt::format("{} {} is not supported; three numbers {} are allowed", words[0].text,
+                                        words[1].text, allowed));
             return {};
         }
         if (count != 1 && count != 3) {
@@ -39,7 +40,8 @@ struct MtlReader {
             if (!number)
                 error(words[i + 1], fmt::format("\"{}\" is not a number; {} is allowed", words[i + 1].text, allowed));
             else if (!(std::isfinite(*number) && *number >= 0 && *number <= high))
-                error(words[i + 1], fmt::format("{} {} is out of range; {} is allowed", words[0].text, words[i + 1].text, allowed));
+                error(words[i + 1],
+                      fmt::format("{} {} is out of range; {} is allowed", words[0].text, words[i + 1].text, allowed));
             else {
                 rgb[static_cast<int>(i)] = *number;
                 continue;
@@ -52,16 +54,17 @@ struct MtlReader {
 
     // "map_Kd -s 1 1 1 picture of the sea.png": options come first, the file name is the rest.
     void map(const std::vector<Word>& words) {
-        static const std::map<std::string, int, std::less<>> most_arguments{{"-blendu", 1}, {"-blendv", 1}, {"-bm", 1},      {"-boost", 1},
-                                                                            {"-cc", 1},     {"-clamp", 1},  {"-imfchan", 1}, {"-mm", 2},
-                                                                            {"-o", 3},      {"-s", 3},      {"-t", 3},       {"-texres", 1}};
+        static const std::map<std::string, int, std::less<>> most_arguments{
+            {"-blendu", 1},  {"-blendv", 1}, {"-bm", 1}, {"-boost", 1}, {"-cc", 1}, {"-clamp", 1},
+            {"-imfchan", 1}, {"-mm", 2},     {"-o", 3},  {"-s", 3},     {"-t", 3},  {"-texres", 1}};
         std::size_t i = 1;
         while (i < words.size()) {
             const auto option = most_arguments.find(words[i].text);
             if (option == most_arguments.end()) break;
             const std::size_t start = i++;
             for (int taken = 0; taken < option->second && i < words.size(); ++taken, ++i)
-                if (option->second != 1 && !number_from(words[i].text)) break; // -s, -o, -t may have one or two numbers only
+                if (option->second != 1 && !number_from(words[i].text))
+                    break; // -s, -o, -t may have one or two numbers only
             warning(words[start], fmt::format("{} of a texture is left out", words[start].text));
         }
         if (i >= words.size()) {
@@ -81,7 +84,8 @@ struct MtlReader {
             if (key == "newmtl") {
                 const std::string name = utf8_name(rest_of_line(words, 1));
                 if (name.empty()) error(words[0], "newmtl has no name; a name is needed");
-                if (!names.insert(name).second) error(words[0], fmt::format("material \"{}\" is there twice; one of each name is allowed", name));
+                if (!names.insert(name).second)
+                    error(words[0], fmt::format("material \"{}\" is there twice; one of each name is allowed", name));
                 materials.push_back({name, {}, Rgb(0), {}, {}});
                 continue;
             }
@@ -100,7 +104,8 @@ struct MtlReader {
             } else if (words.size() > 1) {
                 const double opaque = key == "d" ? 1 : 0;
                 if (number_from(words.back().text).value_or(opaque) != opaque)
-                    warning(words[0], fmt::format("material \"{}\" is transparent; it is taken as opaque", materials.back().name));
+                    warning(words[0], fmt::format("material \"{}\" is transparent; it is taken as opaque",
+                                                  materials.back().name));
             }
         }
     }

@@ -19,7 +19,8 @@ struct MtlMaterial {
     Place map_kd_place;
 };
 
-// Errors carry the .mtl's own lines. Nothing where the file cannot be read (told by the caller, who knows who asked for it).
+// Errors carry the .mtl's own lines. Nothing where the file cannot be read (told by the caller, who knows who asked for
+// it).
 std::optional<std::vector<MtlMaterial>> read_mtl(const std::filesystem::path& file, Diagnostics& diagnostics);
 
 } // namespace lueur

@@ -1,4 +1,5 @@
-// Wavefront OBJ: vertices, faces, objects and groups, materials. Free-form curves are not read; lines and points are left out and told.
+// Wavefront OBJ: vertices, faces, objects and groups, materials. Free-form curves are not read; lines and points are
+// left out and told.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -111,12 +112,14 @@ void ObjReader::corner(const Word& word) {
         if (!number.empty() || part == 0) {
             const auto index = integer_from(number);
             if (!index) {
-                error(word, fmt::format("\"{}\" is not a corner of a face; v, v/vt, v//vn or v/vt/vn is allowed", word.text));
+                error(word,
+                      fmt::format("\"{}\" is not a corner of a face; v, v/vt, v//vn or v/vt/vn is allowed", word.text));
                 break;
             }
             if (*index > 0) {
                 result.index[part] = *index - 1;
-                if (*index > static_cast<std::int64_t>(sizes[part])) late.push_back({*index, static_cast<Kind>(part), word});
+                if (*index > static_cast<std::int64_t>(sizes[part]))
+                    late.push_back({*index, static_cast<Kind>(part), word});
             } else if (*index < 0 && -*index <= static_cast<std::int64_t>(sizes[part]))
                 result.index[part] = static_cast<std::int64_t>(sizes[part]) + *index;
             else
@@ -124,7 +127,8 @@ void ObjReader::corner(const Word& word) {
         }
         if (slash == rest.npos) break;
         rest = rest.substr(slash + 1);
-        if (part == 2) error(word, fmt::format("\"{}\" has too many slashes; v, v/vt, v//vn or v/vt/vn is allowed", word.text));
+        if (part == 2)
+            error(word, fmt::format("\"{}\" has too many slashes; v, v/vt, v//vn or v/vt/vn is allowed", word.text));
     }
     corners.push_back(result);
 }
@@ -143,7 +147,10 @@ void ObjReader::face(const std::vector<Word>& words) {
         material_index[""] = 0;
         material_place.push_back({});
     }
-    faces.push_back({static_cast<std::uint32_t>(corners.size()), static_cast<std::uint32_t>(words.size() - 1), group, material,
+    faces.push_back({static_cast<std::uint32_t>(corners.size()),
+                     static_cast<std::uint32_t>(words.size() - 1),
+                     group,
+                     material,
                      {words[0].line, words[0].column}});
     for (std::size_t i = 1; i < words.size(); ++i) corner(words[i]);
 }
@@ -158,7 +165,8 @@ bool ObjReader::open_library(const std::string& name) {
     libraries_read.push_back(full);
     if (auto read = read_mtl(full, mine))
         for (MtlMaterial& entry : *read)
-            if (folder_of.try_emplace(entry.name, std::filesystem::path(path).parent_path()).second) library.push_back(std::move(entry));
+            if (folder_of.try_emplace(entry.name, std::filesystem::path(path).parent_path()).second)
+                library.push_back(std::move(entry));
     return true;
 }
 
@@ -171,7 +179,8 @@ void ObjReader::material_library(const std::vector<Word>& words) {
     for (std::size_t i = 1; i < words.size(); ++i)
         if (!open_library(std::string(words[i].text)))
             mine.warning(file, {words[i].line, words[i].column},
-                         fmt::format("material file \"{}\" is not there; its materials become grey 0.5", words.size() == 2 ? rest_of_line(words, 1) : std::string(words[i].text)));
+                         fmt::format("material file \"{}\" is not there; its materials become grey 0.5",
+                                     words.size() == 2 ? rest_of_line(words, 1) : std::string(words[i].text)));
 }
 
 void ObjReader::read(std::string_view text) {
@@ -180,14 +189,20 @@ void ObjReader::read(std::string_view text) {
     while (lines.next(words)) {
         const std::string_view key = words[0].text;
         if (key == "v") {
-            if (const auto p = numbers<3>(words, 3)) positions.push_back(*p);
-            else positions.emplace_back(0);
+            if (const auto p = numbers<3>(words, 3))
+                positions.push_back(*p);
+            else
+                positions.emplace_back(0);
         } else if (key == "vt") {
-            if (const auto p = numbers<2>(words, 1)) coordinates.push_back(*p);
-            else coordinates.emplace_back(0);
+            if (const auto p = numbers<2>(words, 1))
+                coordinates.push_back(*p);
+            else
+                coordinates.emplace_back(0);
         } else if (key == "vn") {
-            if (const auto p = numbers<3>(words, 3)) normals.push_back(*p);
-            else normals.emplace_back(0);
+            if (const auto p = numbers<3>(words, 3))
+                normals.push_back(*p);
+            else
+                normals.emplace_back(0);
         } else if (key == "f" || key == "fo") {
             face(words);
         } else if (key == "o" || key == "g") {
@@ -198,7 +213,8 @@ void ObjReader::read(std::string_view text) {
             group = found->second;
         } else if (key == "usemtl") {
             const std::string name = utf8_name(rest_of_line(words, 1));
-            const auto [found, fresh] = material_index.try_emplace(name, static_cast<std::uint32_t>(material_names.size()));
+            const auto [found, fresh] =
+                material_index.try_emplace(name, static_cast<std::uint32_t>(material_names.size()));
             if (fresh) {
                 material_names.push_back(name);
                 material_place.push_back({words[0].line, words[0].column});
@@ -217,7 +233,9 @@ void ObjReader::read(std::string_view text) {
     for (const LateIndex& index : late) {
         const auto kind = static_cast<std::size_t>(index.kind);
         if (index.index > 0 && index.index <= static_cast<std::int64_t>(sizes[kind])) continue;
-        const std::string allowed = sizes[kind] == 0 ? "the file has none" : fmt::format("1..{} or -{}..-1 is allowed", sizes[kind], sizes[kind]);
+        const std::string allowed = sizes[kind] == 0
+                                        ? "the file has none"
+                                        : fmt::format("1..{} or -{}..-1 is allowed", sizes[kind], sizes[kind]);
         error(index.word, fmt::format("the face names {} {}; {}", names[kind], index.index, allowed));
     }
 }
@@ -231,13 +249,17 @@ std::vector<Material> ObjReader::materials(std::vector<Rgb>& emission) {
         made.name = unique.take(material_names[i].empty() ? "default" : material_names[i]);
         made.two_sided = true; // OBJ has no sides
         emission.emplace_back(0);
-        const auto entry = std::find_if(library.begin(), library.end(), [&](const MtlMaterial& m) { return m.name == material_names[i]; });
+        const auto entry = std::find_if(library.begin(), library.end(),
+                                        [&](const MtlMaterial& m) { return m.name == material_names[i]; });
         if (entry == library.end()) {
             if (!libraries_read.empty() && !material_names[i].empty())
-                mine.warning(file, material_place[i], fmt::format("material \"{}\" is in none of the material files; it becomes grey 0.5", material_names[i]));
+                mine.warning(file, material_place[i],
+                             fmt::format("material \"{}\" is in none of the material files; it becomes grey 0.5",
+                                         material_names[i]));
         } else {
             if (!entry->kd && entry->map_kd.empty())
-                mine.warning(file, material_place[i], fmt::format("material \"{}\" has no Kd; its reflectance becomes 0.5", made.name));
+                mine.warning(file, material_place[i],
+                             fmt::format("material \"{}\" has no Kd; its reflectance becomes 0.5", made.name));
             const Rgb kd = entry->kd.value_or(entry->map_kd.empty() ? Rgb(0.5) : Rgb(1));
             made.reflectance = kd;
             emission.back() = entry->ke;
@@ -250,8 +272,8 @@ std::vector<Material> ObjReader::materials(std::vector<Rgb>& emission) {
                 else {
                     if (!entry->kd) made.reflectance = 0.5;
                     mine.warning(file, material_place[i],
-                                 fmt::format("texture of material \"{}\" left out, its mean colour stays {}: {}", made.name,
-                                             entry->kd ? "Kd" : "grey 0.5", image.error()));
+                                 fmt::format("texture of material \"{}\" left out, its mean colour stays {}: {}",
+                                             made.name, entry->kd ? "Kd" : "grey 0.5", image.error()));
                 }
             }
         }
@@ -272,17 +294,20 @@ std::optional<ImportedModel> ObjReader::model() {
         for (auto& [material_number, object] : by_material) {
             const std::string& material_name = result.materials[material_number].name;
             object = ObjectIndex{static_cast<std::uint32_t>(result.objects.size())};
-            const std::string name = by_material.size() == 1 ? groups[group_number] : groups[group_number] + "." + material_name;
+            const std::string name =
+                by_material.size() == 1 ? groups[group_number] : groups[group_number] + "." + material_name;
             result.objects.push_back({unique.take(name), MaterialIndex{material_number}});
             const Rgb& radiance = emission[material_number];
-            if (std::max({radiance.r, radiance.g, radiance.b}) > 0) result.emission.push_back({object, radiance, EmitSide::front});
+            if (std::max({radiance.r, radiance.g, radiance.b}) > 0)
+                result.emission.push_back({object, radiance, EmitSide::front});
         }
 
     const UpAxis up = request.up;
     std::vector<glm::dvec3> polygon;
     for (const Face& one : faces) {
         polygon.clear();
-        for (std::uint32_t i = 0; i < one.count; ++i) polygon.push_back(positions[static_cast<std::size_t>(corners[one.first + i].index[0])]);
+        for (std::uint32_t i = 0; i < one.count; ++i)
+            polygon.push_back(positions[static_cast<std::size_t>(corners[one.first + i].index[0])]);
         std::vector<glm::uvec3> triangles;
         if (one.count == 3)
             triangles = triangle_fan(3);
@@ -302,7 +327,8 @@ std::optional<ImportedModel> ObjReader::model() {
                 vertex.uv = glm::vec2(uv.x, 1 - uv.y); // OBJ counts v upwards
             }
             if (c.index[2] >= 0) {
-                const glm::dvec3 normal = world_from_file(normals[static_cast<std::size_t>(c.index[2])], LengthUnit::metre, up);
+                const glm::dvec3 normal =
+                    world_from_file(normals[static_cast<std::size_t>(c.index[2])], LengthUnit::metre, up);
                 const double length = glm::length(normal);
                 if (length > 0) vertex.normal = glm::vec3(normal / length);
             }
@@ -314,7 +340,9 @@ std::optional<ImportedModel> ObjReader::model() {
         }
     }
     if (crossing_faces)
-        mine.warning(file, {}, fmt::format("{} face{} whose border crosses itself, cut into fans", crossing_faces, crossing_faces == 1 ? "" : "s"));
+        mine.warning(file, {},
+                     fmt::format("{} face{} whose border crosses itself, cut into fans", crossing_faces,
+                                 crossing_faces == 1 ? "" : "s"));
     return result;
 }
 
@@ -331,15 +359,22 @@ std::optional<ImportedModel> read_obj(const ImportRequest& request, Diagnostics&
     std::optional<ImportedModel> model;
     if (reader.mine.errors.empty()) {
         if (reader.lines_and_points)
-            reader.mine.warning(reader.file, {}, fmt::format("{} lines and points left out: they have no area", reader.lines_and_points));
-        if (reader.curves) reader.mine.warning(reader.file, {}, fmt::format("{} free-form curves and surfaces left out", reader.curves));
+            reader.mine.warning(
+                reader.file, {},
+                fmt::format("{} lines and points left out: they have no area", reader.lines_and_points));
+        if (reader.curves)
+            reader.mine.warning(reader.file, {},
+                                fmt::format("{} free-form curves and surfaces left out", reader.curves));
         if (reader.faces.empty()) {
-            const char* what = text->empty() ? "is empty" : reader.positions.empty() ? "has no vertices and no faces" : "is a point cloud: vertices, but no faces";
+            const char* what = text->empty()              ? "is empty"
+                               : reader.positions.empty() ? "has no vertices and no faces"
+                                                          : "is a point cloud: vertices, but no faces";
             reader.mine.error(reader.file, {}, fmt::format("{}; at least one face (f) is needed", what));
         } else
             model = reader.model();
     }
-    if (reader.errors_left_out) reader.mine.error(reader.file, {}, fmt::format("and {} more errors", reader.errors_left_out));
+    if (reader.errors_left_out)
+        reader.mine.error(reader.file, {}, fmt::format("and {} more errors", reader.errors_left_out));
     for (std::string& line : reader.mine.errors) diagnostics.errors.push_back(std::move(line));
     for (std::string& line : reader.mine.warnings) diagnostics.warnings.push_back(std::move(line));
     if (!reader.mine.errors.empty()) return {};

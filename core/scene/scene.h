@@ -1,8 +1,8 @@
 // The scene as a value: copy, compare, save and undo it freely.
 //
-// Units: metres, world axes right-handed with Y up whatever the file said (units and up axis of the file are kept for saving).
-// References are typed indices into the vectors of the same scene; there are no pointers into it. Geometry is immutable and shared, so a
-// copy of a scene costs its materials and luminaires only.
+// Units: metres, world axes right-handed with Y up whatever the file said (units and up axis of the file are kept for
+// saving). References are typed indices into the vectors of the same scene; there are no pointers into it. Geometry is
+// immutable and shared, so a copy of a scene costs its materials and luminaires only.
 #pragma once
 
 #include <cstdint>
@@ -49,28 +49,29 @@ struct Flat { // equal energy at every wavelength (CIE illuminant E)
     bool operator==(const Flat&) const = default;
 };
 
-using Reflectance = std::variant<double, Rgb, SpectrumFile>;              // each 0..1; Rgb is linear sRGB
+using Reflectance = std::variant<double, Rgb, SpectrumFile>;               // each 0..1; Rgb is linear sRGB
 using EmissionSpectrum = std::variant<Flat, Rgb, SpectrumFile, Blackbody>; // relative, see PowerUnit
 
 struct Texture {
-    std::string path;                            // as written in the scene file; "office.glb*0" is the first picture inside that file
-    std::shared_ptr<const TextureImage> image;   // linear RGB reflectance
-    Rgb mean{1};                                 // over the texels its triangles use (uv area), linear: what a texel is divided by;
-                                                 // a pixel shows reflectance * texel / mean (set by set_texture)
+    std::string path; // as written in the scene file; "office.glb*0" is the first picture inside that file
+    std::shared_ptr<const TextureImage> image; // linear RGB reflectance
+    Rgb mean{1}; // over the texels its triangles use (uv area), linear: what a texel is divided by;
+                 // a pixel shows reflectance * texel / mean (set by set_texture)
     bool operator==(const Texture& other) const { return path == other.path; }
 };
 
 struct Material {
     std::string name;
-    Reflectance reflectance = 0.5; // used by the solve; with a texture: its mean over the surface, by default the mean of its texels
+    Reflectance reflectance =
+        0.5; // used by the solve; with a texture: its mean over the surface, by default the mean of its texels
     std::optional<Texture> texture;
     bool two_sided = false; // false: the back is black and opaque
     bool operator==(const Material&) const = default;
 };
 
-// What `power` counts. With lumen and watt the spectrum is a shape only, scaled so that the luminaire emits that flux in total.
-// With exitance [W m^-2] a Flat, SpectrumFile or Blackbody is scaled to that integral; an Rgb is power * rgb, channel by channel.
-// radiance [W m^-2 sr^-1] is exitance / pi (OBJ Ke, glTF emissive).
+// What `power` counts. With lumen and watt the spectrum is a shape only, scaled so that the luminaire emits that flux
+// in total. With exitance [W m^-2] a Flat, SpectrumFile or Blackbody is scaled to that integral; an Rgb is power * rgb,
+// channel by channel. radiance [W m^-2 sr^-1] is exitance / pi (OBJ Ke, glTF emissive).
 enum class PowerUnit { lumen, watt, exitance, radiance };
 enum class EmitSide { front, back, both };
 
@@ -92,7 +93,8 @@ struct Object {
     bool operator==(const Object&) const = default;
 };
 
-// A patch that is refined as one: coplanar neighbouring triangles of an object (a wall), or neighbours that share smooth normals.
+// A patch that is refined as one: coplanar neighbouring triangles of an object (a wall), or neighbours that share
+// smooth normals.
 struct Surface {
     ObjectIndex object{};
     bool planar = true;
@@ -127,9 +129,9 @@ struct ImportedFacts {
 
 // Where geometry came from, kept so that a saved scene names it again.
 struct GeometryFile {
-    std::string path;               // as written
-    std::optional<LengthUnit> unit; // .obj only; none: the scene's
-    std::optional<UpAxis> up;       // .obj only; none: the scene's
+    std::string path;                              // as written
+    std::optional<LengthUnit> unit;                // .obj only; none: the scene's
+    std::optional<UpAxis> up;                      // .obj only; none: the scene's
     std::shared_ptr<const ImportedFacts> imported; // null before it is loaded
     bool operator==(const GeometryFile& other) const {
         return path == other.path && unit == other.unit && up == other.up;
@@ -158,9 +160,9 @@ enum class SolverKind { gathering, shooting };
 struct SolveSettings {
     SolverKind solver = SolverKind::gathering;
     WavelengthsSpec wavelengths;
-    double target_error = 0.02;     // relative RMS error of irradiance at which the worker sleeps
-    double element_size = 0;        // largest coarse element edge in metres; 0: chosen from the scene's area
-    int max_rays = 512;             // gather rays a receiver, at most
+    double target_error = 0.02; // relative RMS error of irradiance at which the worker sleeps
+    double element_size = 0;    // largest coarse element edge in metres; 0: chosen from the scene's area
+    int max_rays = 512;         // gather rays a receiver, at most
     std::uint32_t seed = 1;
     bool operator==(const SolveSettings&) const = default;
 };

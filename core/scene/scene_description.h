@@ -64,8 +64,9 @@ struct SceneDescription {
     bool names_complete = true; // false: some polygon or material could not be read, so an unknown name may be its
 };
 
-// Errors go to `diagnostics` under the name `file`; nothing at all only where the text is not TOML. Spectrum files are read from `folder`.
-std::optional<SceneDescription> read_toml_scene(const std::string& text, const std::string& file, const std::filesystem::path& folder,
-                                                Diagnostics& diagnostics);
+// Errors go to `diagnostics` under the name `file`; nothing at all only where the text is not TOML. Spectrum files are
+// read from `folder`.
+std::optional<SceneDescription> read_toml_scene(const std::string& text, const std::string& file,
+                                                const std::filesystem::path& folder, Diagnostics& diagnostics);
 
 } // namespace lueur

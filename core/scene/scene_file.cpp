@@ -50,17 +50,22 @@ std::expected<LoadedScene, std::vector<std::string>> load_scene(const fs::path& 
     else if (extension == ".obj" || extension == ".gltf" || extension == ".glb")
         scene = load_geometry_as_scene(file, diagnostics);
     else
-        diagnostics.error(file.string(), {}, fmt::format("\"{}\" is not a scene; .toml, .obj, .gltf or .glb is allowed", extension));
+        diagnostics.error(file.string(), {},
+                          fmt::format("\"{}\" is not a scene; .toml, .obj, .gltf or .glb is allowed", extension));
     if (!scene || !diagnostics.errors.empty()) return std::unexpected(std::move(diagnostics.errors));
     return LoadedScene{std::move(*scene), std::move(diagnostics.warnings)};
 }
 
 std::expected<void, std::string> save_scene(const Scene& scene, const fs::path& file) {
-    if (lower_case_extension(file) != ".toml") return std::unexpected(fmt::format("{}: a scene is saved as .toml only", file.string()));
+    if (lower_case_extension(file) != ".toml")
+        return std::unexpected(fmt::format("{}: a scene is saved as .toml only", file.string()));
     std::error_code error;
     const fs::path folder = fs::absolute(file, error).parent_path();
-    if (!fs::is_directory(folder, error)) return std::unexpected(fmt::format("{}: the folder is not there; a file in an existing folder is allowed", file.string()));
-    if (fs::is_directory(file, error)) return std::unexpected(fmt::format("{}: is a folder; a file is allowed", file.string()));
+    if (!fs::is_directory(folder, error))
+        return std::unexpected(
+            fmt::format("{}: the folder is not there; a file in an existing folder is allowed", file.string()));
+    if (fs::is_directory(file, error))
+        return std::unexpected(fmt::format("{}: is a folder; a file is allowed", file.string()));
     const std::string text = scene_to_toml(scene, folder);
     fs::path beside = file; // in the same folder, so that the renaming cannot be torn
     beside += ".part";

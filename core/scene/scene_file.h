@@ -1,10 +1,11 @@
 // Reading and writing scenes: `.toml`, and `.obj`, `.gltf`, `.glb` opened as they are.
 //
-// All errors of a file come in one go, each `FILE:LINE:COLUMN: what is wrong; what is allowed` (line and column 1-based; where a
-// library gives no place, `FILE: ...`). Unknown keys are errors. Warnings say what was repaired or left out (a degenerate
-// triangle, a missing texture) and never change the light silently.
+// All errors of a file come in one go, each `FILE:LINE:COLUMN: what is wrong; what is allowed` (line and column
+// 1-based; where a library gives no place, `FILE: ...`). Unknown keys are errors. Warnings say what was repaired or
+// left out (a degenerate triangle, a missing texture) and never change the light silently.
 //
-// The scene file is TOML. Paths are relative to it. Lengths are in its `units` and axes; numbers may be integers or decimals.
+// The scene file is TOML. Paths are relative to it. Lengths are in its `units` and axes; numbers may be integers or
+// decimals.
 //
 //     name  = "Two walls"          # default: the file's name
 //     units = "millimetre"         # required: metre centimetre millimetre foot inch
@@ -19,30 +20,35 @@
 //     [[polygon]]                  # any number; polygons of one name are one object and must have one material
 //     name     = "left wall"       # required
 //     material = "red paint"       # required; of a [[material]] below, or of a geometry file
-//     vertices = [[0, 0, 0], [0, 2500, 0], [0, 2500, 3000], [0, 0, 3000]] # >= 3, counter-clockwise seen from the front; convex or concave
-//     uv       = [[0, 1], [0, 0], [1, 0], [1, 1]]                         # default none; one a vertex; (0,0) is the picture's top left; repeats
+//     # required: at least 3, counter-clockwise seen from the front; convex or concave
+//     vertices = [[0, 0, 0], [0, 2500, 0], [0, 2500, 3000], [0, 0, 3000]]
+//     # default none; one a vertex; (0,0) is the picture's top left; the picture repeats
+//     uv       = [[0, 1], [0, 0], [1, 0], [1, 1]]
 //
 //     [[object]]                   # gives an object of a geometry file another material
 //     name     = "desk.003"
 //     material = "red paint"
 //
-//     [[material]]                 # one with the name of an imported material changes the keys given here and keeps the others
+//     [[material]]                 # with the name of an imported one: changes the keys given here, keeps the others
 //     name        = "red paint"    # required, unique
-//     reflectance = 0.5            # 0..1; or [r, g, b] each 0..1 linear sRGB; or { file = "paints.csv", column = "red" } (column: default first)
+//     reflectance = 0.5            # 0..1; or [r, g, b] each 0..1, linear sRGB; or
+//                                  # { file = "paints.csv", column = "red" } (column: default the first)
 //     two_sided   = false          # default; false: the back is black and opaque
 //
 //     [[material]]
 //     name    = "picture"
-//     texture = "pictures/sea.png" # its mean is the reflectance, where no `reflectance` is given; else the picture is scaled to that mean.
-//                                  # "office.glb*0" is the first picture inside that geometry file; "none" takes an imported texture away
+//     texture = "pictures/sea.png" # its mean is the reflectance; where one is given, the picture is scaled to it;
+//                                  # "office.glb*0": the first picture inside that geometry file;
+//                                  # "none": takes an imported texture away
 //
 //     [[luminaire]]
 //     name     = "lamp"            # required, unique
-//     objects  = ["left wall"]     # required: names of polygons or imported objects; each is lit by one luminaire at most;
+//     objects  = ["left wall"]     # required: names of polygons or imported objects, each in one luminaire at most;
 //                                  # takes the place of what a geometry file says of their emission
-//     spectrum = "flat"            # default; or [r, g, b] >= 0; or { file = "lamp.csv", column = "" }; or { blackbody = 2700 } (1000..25000 K)
-//     power    = { lumen = 3000 }  # required, one of: lumen, watt (of the whole luminaire), exitance (W/m2), radiance (W/m2/sr);
-//                                  # with [r, g, b] exitance and radiance multiply it channel by channel
+//     spectrum = "flat"            # default; or [r, g, b] >= 0; or { file = "lamp.csv", column = "" };
+//                                  # or { blackbody = 2700 } (1000..25000 K)
+//     power    = { lumen = 3000 }  # required, one of: lumen, watt (of the whole luminaire), exitance (W/m2),
+//                                  # radiance (W/m2/sr); exitance and radiance multiply [r, g, b] channel by channel
 //     dimmer   = 1.0               # default; >= 0
 //     side     = "front"           # default; front back both
 //
@@ -88,17 +94,18 @@ struct LoadedScene {
 
 std::expected<LoadedScene, std::vector<std::string>> load_scene(const std::filesystem::path& file);
 
-// As a .toml; paths inside are written relative to the new file's folder. Writes beside and renames. Saving what was just loaded from a
-// file that save_scene wrote gives the same bytes.
+// As a .toml; paths inside are written relative to the new file's folder. Writes beside and renames. Saving what was
+// just loaded from a file that save_scene wrote gives the same bytes.
 std::expected<void, std::string> save_scene(const Scene& scene, const std::filesystem::path& file);
 std::string scene_to_toml(const Scene& scene, const std::filesystem::path& folder);
 
-// A texture for a material: reads, and says what is wrong in one line. set_texture also sets the mean reflectance over the texels that the
-// material's triangles use.
+// A texture for a material: reads, and says what is wrong in one line. set_texture also sets the mean reflectance over
+// the texels that the material's triangles use.
 std::expected<Texture, std::string> load_texture(const Scene& scene, const std::filesystem::path& file);
 void set_texture(Scene& scene, MaterialIndex material, Texture texture);
 
-// What is wrong with values a panel or a command may have changed: reflectance 0..1, powers, camera, display. Empty when fine.
+// What is wrong with values a panel or a command may have changed: reflectance 0..1, powers, camera, display. Empty
+// when fine.
 std::vector<std::string> check(const Scene& scene);
 
 } // namespace lueur

@@ -17,18 +17,19 @@ namespace {
 
 constexpr std::uint32_t none = 0xffffffffu;
 constexpr double degree = 3.14159265358979323846 / 180;
-constexpr double plane_angle = 0.2 * degree;   // between neighbours of one wall
-constexpr double flat_angle = 2 * degree;      // a file's normals this near to the wall's own are rounding
-constexpr double sharp_cosine = 0.1;            // 84 degrees: an edge is an edge, whatever the normals say
-constexpr double smooth_cosine = 0.9999;       // 0.8 degrees: one and the same normal, rounded
-constexpr double weld_share = 1e-6, plane_share = 1e-5, sliver_share = 1e-7; // of the scene's size, of the size, of the edge
+constexpr double plane_angle = 0.2 * degree; // between neighbours of one wall
+constexpr double flat_angle = 2 * degree;    // a file's normals this near to the wall's own are rounding
+constexpr double sharp_cosine = 0.1;         // 84 degrees: an edge is an edge, whatever the normals say
+constexpr double smooth_cosine = 0.9999;     // 0.8 degrees: one and the same normal, rounded
+constexpr double weld_share = 1e-6, plane_share = 1e-5,
+                 sliver_share = 1e-7; // of the scene's size, of the size, of the edge
 
 struct Triangle {
     glm::uvec3 vertex;
     glm::uvec3 welded;
     glm::dvec3 normal; // unit, from the corners
     double area;
-    double height;     // over the longest edge
+    double height; // over the longest edge
     ObjectIndex object;
 };
 
@@ -51,7 +52,9 @@ struct UnionFind {
     void join(std::uint32_t a, std::uint32_t b) { parent[root(a)] = root(b); }
 };
 
-bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool finite(const glm::vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 struct Left { // what is left out, of each object
     std::size_t degenerate = 0, not_finite = 0;
@@ -62,9 +65,9 @@ struct Builder {
     double size = 0; // diagonal of the bounding box
     std::vector<std::uint32_t> weld;
     std::vector<Triangle> triangles;
-    std::vector<EdgeUse> uses; // sorted by edge
+    std::vector<EdgeUse> uses;                                 // sorted by edge
     std::vector<std::array<std::uint32_t, 3>> neighbour_begin; // of each triangle's edges: where its edge's uses begin
-    std::vector<std::uint32_t> region; // of each triangle; named by its seed
+    std::vector<std::uint32_t> region;                         // of each triangle; named by its seed
 
     void keep_sound_triangles(const std::vector<Object>& objects, std::vector<std::string>& warnings);
     void find_neighbours();
@@ -76,7 +79,8 @@ struct Builder {
         const std::uint32_t begin = neighbour_begin[triangle][static_cast<std::size_t>(corner)];
         if (begin == none) return;
         for (std::uint32_t i = begin; i < uses.size() && uses[i].edge == uses[begin].edge; ++i)
-            if (uses[i].triangle != triangle && triangles[uses[i].triangle].object == triangles[triangle].object) visit(uses[i]);
+            if (uses[i].triangle != triangle && triangles[uses[i].triangle].object == triangles[triangle].object)
+                visit(uses[i]);
     }
     bool smooth_across(std::uint32_t triangle, int corner, const EdgeUse& other) const;
 };
@@ -87,7 +91,8 @@ void Builder::keep_sound_triangles(const std::vector<Object>& objects, std::vect
     for (std::size_t i = 0; i < soup.triangles.size(); ++i) {
         const glm::uvec3& t = soup.triangles[i];
         const ObjectIndex object = soup.triangle_object[i];
-        const glm::vec3 corner[3] = {soup.vertices[t.x].position, soup.vertices[t.y].position, soup.vertices[t.z].position};
+        const glm::vec3 corner[3] = {soup.vertices[t.x].position, soup.vertices[t.y].position,
+                                     soup.vertices[t.z].position};
         if (!finite(corner[0]) || !finite(corner[1]) || !finite(corner[2])) {
             ++left[at(object)].not_finite;
             continue;
@@ -109,11 +114,14 @@ void Builder::keep_sound_triangles(const std::vector<Object>& objects, std::vect
     size = triangles.empty() ? 0 : glm::distance(low, high);
     for (std::size_t i = 0; i < objects.size(); ++i) {
         if (left[i].degenerate)
-            warnings.push_back(fmt::format("object \"{}\": {} degenerate triangle{} left out (no area, or thinner than 1e-7 of the longest edge)",
-                                           objects[i].name, left[i].degenerate, left[i].degenerate == 1 ? "" : "s"));
+            warnings.push_back(fmt::format(
+                "object \"{}\": {} degenerate triangle{} left out (no area, or thinner than 1e-7 of the longest edge)",
+                objects[i].name, left[i].degenerate, left[i].degenerate == 1 ? "" : "s"));
         if (left[i].not_finite)
-            warnings.push_back(fmt::format("object \"{}\": {} triangle{} left out that name{} a vertex that is not a finite number", objects[i].name,
-                                           left[i].not_finite, left[i].not_finite == 1 ? "" : "s", left[i].not_finite == 1 ? "s" : ""));
+            warnings.push_back(
+                fmt::format("object \"{}\": {} triangle{} left out that name{} a vertex that is not a finite number",
+                            objects[i].name, left[i].not_finite, left[i].not_finite == 1 ? "" : "s",
+                            left[i].not_finite == 1 ? "s" : ""));
     }
 }
 
@@ -129,7 +137,9 @@ void Builder::find_neighbours() {
         }
     }
     std::sort(uses.begin(), uses.end(), [](const EdgeUse& a, const EdgeUse& b) {
-        return a.edge != b.edge ? a.edge < b.edge : a.triangle != b.triangle ? a.triangle < b.triangle : a.corner < b.corner;
+        return a.edge != b.edge           ? a.edge < b.edge
+               : a.triangle != b.triangle ? a.triangle < b.triangle
+                                          : a.corner < b.corner;
     });
     neighbour_begin.assign(triangles.size(), {none, none, none});
     for (std::uint32_t i = 0, begin = 0; i < uses.size(); ++i) {
@@ -138,8 +148,9 @@ void Builder::find_neighbours() {
     }
 }
 
-// Each wall grows from its largest triangle and is held against that one's plane, so that a finely cut cylinder does not creep into
-// one "plane" step by step. Every edge is crossed at most twice a wall that touches it: O(n log n) with the sort.
+// Each wall grows from its largest triangle and is held against that one's plane, so that a finely cut cylinder does
+// not creep into one "plane" step by step. Every edge is crossed at most twice a wall that touches it: O(n log n) with
+// the sort.
 void Builder::grow_planes() {
     std::vector<std::uint32_t> order(triangles.size());
     std::iota(order.begin(), order.end(), 0u);
@@ -163,7 +174,9 @@ void Builder::grow_planes() {
                     const double angle = std::max(plane_angle, std::min(0.5, weld_share * size / other.height));
                     if (glm::dot(other.normal, wall.normal) < std::cos(angle)) return;
                     for (int k = 0; k < 3; ++k)
-                        if (std::abs(glm::dot(glm::dvec3(soup.vertices[other.vertex[k]].position) - origin, wall.normal)) > plane_share * size) return;
+                        if (std::abs(glm::dot(glm::dvec3(soup.vertices[other.vertex[k]].position) - origin,
+                                              wall.normal)) > plane_share * size)
+                            return;
                     region[use.triangle] = seed;
                     front.push_back(use.triangle);
                 });
@@ -176,8 +189,10 @@ bool Builder::smooth_across(std::uint32_t triangle, int corner, const EdgeUse& o
     const Triangle &a = triangles[triangle], &b = triangles[other.triangle];
     if (glm::dot(a.normal, b.normal) < sharp_cosine) return false;
     const auto normal = [&](const Triangle& t, int k) { return soup.vertices[t.vertex[k % 3]].normal; };
-    const bool opposite = a.welded[corner] != b.welded[other.corner]; // neighbours that turn alike run along their edge in opposite ways
-    const int b_first = opposite ? other.corner + 1 : other.corner, b_second = opposite ? other.corner : other.corner + 1;
+    const bool opposite =
+        a.welded[corner] != b.welded[other.corner]; // neighbours that turn alike run along their edge in opposite ways
+    const int b_first = opposite ? other.corner + 1 : other.corner,
+              b_second = opposite ? other.corner : other.corner + 1;
     const auto same = [](const glm::vec3& m, const glm::vec3& n) {
         return glm::dot(m, m) > 0.5f && glm::dot(n, n) > 0.5f && glm::dot(m, n) > smooth_cosine;
     };
@@ -205,7 +220,8 @@ Geometry Builder::geometry() {
     for (std::uint32_t i = 0; i < triangles.size(); ++i)
         for (int k = 0; k < 3; ++k) {
             const glm::dvec3 normal(soup.vertices[triangles[i].vertex[k]].normal);
-            if (glm::dot(normal, normal) > 0.5 && glm::dot(normal, triangles[region[i]].normal) < std::cos(flat_angle)) curved[region[i]] = true;
+            if (glm::dot(normal, normal) > 0.5 && glm::dot(normal, triangles[region[i]].normal) < std::cos(flat_angle))
+                curved[region[i]] = true;
         }
     std::vector<bool> curved_surface(triangles.size(), false);
     for (std::uint32_t i = 0; i < triangles.size(); ++i)
@@ -234,17 +250,20 @@ Geometry Builder::geometry() {
         for (int k = 0; k < 3; ++k) {
             own[k] = soup.vertices[triangle.vertex[k]];
             const float length = glm::length(own[k].normal);
-            own[k].normal = curved_surface[root] && std::isfinite(length) && length > 0.5f ? own[k].normal / length : glm::vec3(0);
+            own[k].normal =
+                curved_surface[root] && std::isfinite(length) && length > 0.5f ? own[k].normal / length : glm::vec3(0);
             const auto fresh = static_cast<std::uint32_t>(result.vertices.size());
-            corners[k] = shared_vertices.find_or_insert(corner_hash(surface, triangle.welded[k], own[k]), fresh, [&](std::uint32_t other) {
-                return vertex_surface[other] == surface && vertex_weld[other] == triangle.welded[k] && result.vertices[other].normal == own[k].normal &&
-                       result.vertices[other].uv == own[k].uv;
-            });
+            corners[k] = shared_vertices.find_or_insert(
+                corner_hash(surface, triangle.welded[k], own[k]), fresh, [&](std::uint32_t other) {
+                    return vertex_surface[other] == surface && vertex_weld[other] == triangle.welded[k] &&
+                           result.vertices[other].normal == own[k].normal && result.vertices[other].uv == own[k].uv;
+                });
             if (corners[k] == fresh) add_vertex(own[k], surface, triangle.welded[k]);
         }
         const auto shared = [&](int k) { return glm::dvec3(result.vertices[corners[k]].position); };
         const glm::dvec3 moved = glm::cross(shared(1) - shared(0), shared(2) - shared(0));
-        if (glm::dot(moved, triangle.normal) < triangle.area) // under half of it is left: it is too small for the weld, and stays as it is
+        if (glm::dot(moved, triangle.normal) <
+            triangle.area) // under half of it is left: it is too small for the weld, and stays as it is
             for (int k = 0; k < 3; ++k) {
                 corners[k] = static_cast<std::uint32_t>(result.vertices.size());
                 add_vertex(own[k], surface, triangle.welded[k]);
@@ -257,7 +276,8 @@ Geometry Builder::geometry() {
 
 } // namespace
 
-Geometry make_geometry(const TriangleSoup& soup, const std::vector<Object>& objects, std::vector<std::string>& warnings) {
+Geometry make_geometry(const TriangleSoup& soup, const std::vector<Object>& objects,
+                       std::vector<std::string>& warnings) {
     Builder builder{soup, 0, {}, {}, {}, {}, {}};
     builder.keep_sound_triangles(objects, warnings);
     builder.find_neighbours();

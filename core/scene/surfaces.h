@@ -15,9 +15,10 @@ struct TriangleSoup {
     std::vector<ObjectIndex> triangle_object;
 };
 
-// Drops degenerate (area 0 or height under 1e-7 of the longest edge) and not-finite triangles and says how many, of which object.
-// Neighbours share an edge (positions welded at 1e-6 of the scene's size), the same object, and lie within 0.2 degrees and
-// 1e-5 of the size of one plane; or have the same not-flat normals at both ends of the edge.
-Geometry make_geometry(const TriangleSoup& soup, const std::vector<Object>& objects, std::vector<std::string>& warnings);
+// Drops degenerate (area 0 or height under 1e-7 of the longest edge) and not-finite triangles and says how many, of
+// which object. Neighbours share an edge (positions welded at 1e-6 of the scene's size), the same object, and lie
+// within 0.2 degrees and 1e-5 of the size of one plane; or have the same not-flat normals at both ends of the edge.
+Geometry make_geometry(const TriangleSoup& soup, const std::vector<Object>& objects,
+                       std::vector<std::string>& warnings);
 
 } // namespace lueur

@@ -1,6 +1,7 @@
 #include "core/scene/texture.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -12,53 +13,102 @@ namespace lueur {
 
 namespace {
 
-constexpr double most_rows = 2048; // texels read along each axis of one triangle; beyond it every n-th
+constexpr double total_reads = 1 << 20;                   // texels read for a mean, about
+constexpr double fewest_reads = 64, most_reads = 1 << 16; // of one triangle
+constexpr double exact_rows =
+    16; // up to so many texels along both axes each is weighted by the part of it that is covered
 
 glm::dvec3 texel(const TextureImage& image, double x, double y) { // in texels; repeats
     const auto wrapped = [](double index, int size) {
         const double rest = index - std::floor(index / size) * size;
         return std::clamp(static_cast<int>(rest), 0, size - 1);
     };
-    const auto row = static_cast<std::size_t>(wrapped(y, image.height)), column = static_cast<std::size_t>(wrapped(x, image.width));
+    const auto row = static_cast<std::size_t>(wrapped(y, image.height)),
+               column = static_cast<std::size_t>(wrapped(x, image.width));
     return glm::dvec3(image.rgb[row * static_cast<std::size_t>(image.width) + column]);
 }
 
-// Mean over a triangle in texel coordinates: texel centres inside it, row by row; a triangle that holds few is sampled instead.
-glm::dvec3 mean_over(const TextureImage& image, const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
+using Polygon = std::array<glm::dvec2, 8>; // a triangle cut by a square has at most 7 corners
+
+// Keeps what lies on one side of x = at (axis 0) or y = at (axis 1) (Sutherland & Hodgman 1974).
+std::size_t cut(Polygon& polygon, std::size_t count, int axis, double at, double side) {
+    Polygon result;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::dvec2 &p = polygon[i], &q = polygon[(i + 1) % count];
+        const double from = side * (p[axis] - at), to = side * (q[axis] - at);
+        if (from >= 0) result[kept++] = p;
+        if ((from < 0) != (to < 0) && kept < result.size()) result[kept++] = p + (q - p) * (from / (from - to));
+    }
+    polygon = result;
+    return kept;
+}
+
+// Area of the triangle inside the unit square whose corner is (x, y).
+double covered_area(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, double x, double y) {
+    Polygon polygon{a, b, c};
+    std::size_t count = cut(polygon, 3, 0, x, 1);
+    count = cut(polygon, count, 0, x + 1, -1);
+    count = cut(polygon, count, 1, y, 1);
+    count = cut(polygon, count, 1, y + 1, -1);
+    double twice = 0;
+    for (std::size_t i = 2; i < count; ++i) {
+        const glm::dvec2 u = polygon[i - 1] - polygon[0], v = polygon[i] - polygon[0];
+        twice += u.x * v.y - u.y * v.x;
+    }
+    return std::abs(twice) / 2;
+}
+
+// Mean at points spread evenly over the triangle by the R2 sequence (Roberts 2018): pictures that repeat many times do
+// not beat with it.
+glm::dvec3 sampled_mean(const TextureImage& image, const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c,
+                        int samples) {
+    glm::dvec3 sum{0};
+    double u = 0.5, v = 0.5;
+    for (int i = 0; i < samples; ++i) {
+        u = u + 0.7548776662466927 - (u >= 1 - 0.7548776662466927 ? 1 : 0);
+        v = v + 0.5698402909980532 - (v >= 1 - 0.5698402909980532 ? 1 : 0);
+        const bool folded = u + v > 1; // the square folded onto the triangle keeps area
+        const glm::dvec2 p = a + (b - a) * (folded ? 1 - u : u) + (c - a) * (folded ? 1 - v : v);
+        sum += texel(image, p.x, p.y);
+    }
+    return sum / static_cast<double>(samples);
+}
+
+// Mean over a triangle in texel coordinates: a small one exactly, a larger one by the texel centres inside it, row by
+// row; one that holds more texels than may be read, a sliver and one without area are sampled.
+glm::dvec3 mean_over(const TextureImage& image, const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c,
+                     double reads) {
     const double low_y = std::min({a.y, b.y, c.y}), high_y = std::max({a.y, b.y, c.y});
     const double low_x = std::min({a.x, b.x, c.x}), high_x = std::max({a.x, b.x, c.x});
-    const double step_y = std::max(1.0, std::ceil((high_y - low_y) / most_rows)), step_x = std::max(1.0, std::ceil((high_x - low_x) / most_rows));
+    const double extent = std::max(high_x - low_x, high_y - low_y);
+    if ((high_x - low_x) * (high_y - low_y) > 2 * reads || extent > reads)
+        return sampled_mean(image, a, b, c, static_cast<int>(reads));
     glm::dvec3 sum{0};
-    double count = 0;
-    if (high_y - low_y < 1e9 && high_x - low_x < 1e9)
-        for (double y = std::floor(low_y) + 0.5; y <= high_y; y += step_y) {
-            double from = 1e300, to = -1e300;
-            for (const auto& [p, q] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
-                if ((p.y <= y) == (q.y <= y)) continue;
-                const double x = p.x + (q.x - p.x) * (y - p.y) / (q.y - p.y);
-                from = std::min(from, x);
-                to = std::max(to, x);
-            }
-            for (double x = low_x + std::max(0.0, std::ceil((from - low_x) / step_x - 0.5)) * step_x + 0.5 * step_x; x < to; x += step_x) {
-                if (x < from) continue;
-                sum += texel(image, x, y);
-                count += 1;
-            }
+    double weight = 0;
+    if (extent <= exact_rows) {
+        for (double y = std::floor(low_y); y < high_y; y += 1)
+            for (double x = std::floor(low_x); x < high_x; x += 1)
+                if (const double part = covered_area(a, b, c, x, y); part > 0) {
+                    sum += part * texel(image, x, y);
+                    weight += part;
+                }
+        return weight > 1e-12 ? sum / weight : sampled_mean(image, a, b, c, 256);
+    }
+    for (double y = std::floor(low_y) + 0.5; y <= high_y; y += 1) {
+        double from = 1e300, to = -1e300;
+        for (const auto& [p, q] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
+            if ((p.y <= y) == (q.y <= y)) continue;
+            const double x = p.x + (q.x - p.x) * (y - p.y) / (q.y - p.y);
+            from = std::min(from, x);
+            to = std::max(to, x);
         }
-    constexpr int samples = 8; // along an edge
-    if (count >= samples * samples) return sum / count;
-    sum = glm::dvec3(0);
-    for (int i = 0; i < samples; ++i)
-        for (int j = 0; j < samples; ++j) { // the square folded onto the triangle keeps area
-            double u = (i + 0.5) / samples, v = (j + 0.5) / samples;
-            if (u + v > 1) {
-                u = 1 - u;
-                v = 1 - v;
-            }
-            const glm::dvec2 p = a + (b - a) * u + (c - a) * v;
-            sum += texel(image, p.x, p.y);
+        for (double x = std::ceil(from - 0.5) + 0.5; x < to; x += 1) {
+            sum += texel(image, x, y);
+            weight += 1;
         }
-    return sum / static_cast<double>(samples * samples);
+    }
+    return weight >= 64 ? sum / weight : sampled_mean(image, a, b, c, 1024);
 }
 
 } // namespace
@@ -66,16 +116,23 @@ glm::dvec3 mean_over(const TextureImage& image, const glm::dvec2& a, const glm::
 Rgb mean_texel(const TextureImage& image, std::span<const Vertex> vertices, std::span<const glm::uvec3> triangles) {
     if (image.rgb.empty()) return Rgb(0.5);
     const glm::dvec2 size(image.width, image.height);
-    glm::dvec3 sum{0};
+    std::vector<double> weight;
     double area = 0;
     for (const glm::uvec3& t : triangles) {
         const Vertex &a = vertices[t.x], &b = vertices[t.y], &c = vertices[t.z];
-        const double weight = glm::length(glm::cross(glm::dvec3(b.position - a.position), glm::dvec3(c.position - a.position)));
-        if (!(weight > 0)) continue;
-        const glm::dvec2 p = glm::dvec2(a.uv) * size, q = glm::dvec2(b.uv) * size, r = glm::dvec2(c.uv) * size;
-        if (!std::isfinite(p.x + p.y + q.x + q.y + r.x + r.y)) continue;
-        sum += weight * mean_over(image, p, q, r);
-        area += weight;
+        const bool has_uv = std::isfinite(a.uv.x + a.uv.y + b.uv.x + b.uv.y + c.uv.x + c.uv.y);
+        const double twice =
+            glm::length(glm::cross(glm::dvec3(b.position - a.position), glm::dvec3(c.position - a.position)));
+        weight.push_back(has_uv && std::isfinite(twice) ? twice : 0);
+        area += weight.back();
+    }
+    glm::dvec3 sum{0};
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        if (weight[i] == 0) continue;
+        const glm::uvec3& t = triangles[i];
+        const double reads = std::clamp(total_reads * weight[i] / area, fewest_reads, most_reads);
+        sum += weight[i] * mean_over(image, glm::dvec2(vertices[t.x].uv) * size, glm::dvec2(vertices[t.y].uv) * size,
+                                     glm::dvec2(vertices[t.z].uv) * size, reads);
     }
     if (area == 0) {
         for (const glm::vec3& value : image.rgb) sum += glm::dvec3(value);
@@ -108,8 +165,9 @@ std::expected<Texture, std::string> load_texture(const Scene& scene, const std::
     auto image = read_texture(full);
     if (!image) return std::unexpected(image.error());
     Texture texture;
-    texture.path = scene.folder.empty() || file.is_relative() ? file.generic_string()
-                                                             : full.lexically_normal().lexically_proximate(scene.folder).generic_string();
+    texture.path = scene.folder.empty() || file.is_relative()
+                       ? file.generic_string()
+                       : full.lexically_normal().lexically_proximate(scene.folder).generic_string();
     texture.image = std::make_shared<const TextureImage>(std::move(*image));
     return texture;
 }

@@ -7,8 +7,9 @@
 
 namespace lueur {
 
-// Mean of linear RGB, each triangle weighted by its area in the scene. The picture repeats. Triangles without area count nothing; without
-// any triangle it is the mean of the whole picture. Costs at most a few million texel reads a triangle, whatever its uv.
+// Mean of linear RGB, each triangle weighted by its area in the scene. The picture repeats. Triangles without area
+// count nothing; without any triangle it is the mean of the whole picture. Costs about a million texel reads, shared
+// out by area.
 Rgb mean_texel(const TextureImage& image, std::span<const Vertex> vertices, std::span<const glm::uvec3> triangles);
 
 // True where all corners have one uv: the file gave none.

@@ -1,6 +1,5 @@
 // The tables of a scene file (scene_file.h has the format).
 #include <functional>
-#include <set>
 
 #include "core/scene/files.h"
 #include "core/scene/scene_description.h"
@@ -22,7 +21,9 @@ const std::vector<std::pair<std::string, LengthUnit>> unit_words{{"metre", Lengt
                                                                  {"inch", LengthUnit::inch}};
 const std::vector<std::pair<std::string, UpAxis>> up_words{{"y", UpAxis::y}, {"z", UpAxis::z}};
 
-Rgb rgb_from(const std::vector<double>& numbers) { return {numbers[0], numbers[1], numbers[2]}; }
+Rgb rgb_from(const std::vector<double>& numbers) {
+    return {numbers[0], numbers[1], numbers[2]};
+}
 
 struct Reader {
     TomlFile file;
@@ -32,7 +33,8 @@ struct Reader {
     void read(const toml::table& root);
 
 private:
-    void each_table(const toml::node* node, std::string_view key, const std::function<void(const toml::table&)>& read_one);
+    void each_table(const toml::node* node, std::string_view key,
+                    const std::function<void(const toml::table&)>& read_one);
     std::optional<PlacedName> placed_name(TomlTable& table, std::string_view key, std::string_view allowed);
 
     void read_geometry(const toml::table& table);
@@ -50,7 +52,8 @@ private:
     void read_power(const toml::node& node, Luminaire& luminaire);
 };
 
-void Reader::each_table(const toml::node* node, std::string_view key, const std::function<void(const toml::table&)>& read_one) {
+void Reader::each_table(const toml::node* node, std::string_view key,
+                        const std::function<void(const toml::table&)>& read_one) {
     if (!node) return;
     const toml::array* array = node->as_array();
     if (!array) {
@@ -120,7 +123,8 @@ void Reader::read_polygon(const toml::table& node) {
                 const toml::array* coordinates = uv->as_array();
                 if (!coordinates || coordinates->size() != array->size())
                     file.error(*uv, fmt::format("uv {}; one [u, v] a vertex is allowed, here {}",
-                                                coordinates ? fmt::format("has {} values", coordinates->size()) : "is not an array",
+                                                coordinates ? fmt::format("has {} values", coordinates->size())
+                                                            : "is not an array",
                                                 array->size()));
                 else
                     for (const toml::node& element : *coordinates)
@@ -156,7 +160,8 @@ std::optional<SpectrumFile> Reader::read_spectrum_file(const toml::table& node, 
     TomlTable table(file, node, what);
     const auto path = placed_name(table, "file", "the path of a .csv spectrum is needed");
     SpectrumFile spectrum;
-    if (const toml::node* column = table.find("column")) spectrum.column = read_text(file, *column, "column").value_or("");
+    if (const toml::node* column = table.find("column"))
+        spectrum.column = read_text(file, *column, "column").value_or("");
     table.finish();
     if (!path) return {};
     spectrum.path = path->name;
@@ -185,14 +190,15 @@ std::optional<Reflectance> Reader::read_reflectance(const toml::node& node) {
         if (!spectrum) return {};
         for (std::size_t i = 0; i < spectrum->spectrum.nm.size(); ++i)
             if (const double value = spectrum->spectrum.value[i]; !(value >= 0 && value <= 1)) {
-                file.error(node, fmt::format("reflectance in \"{}\" is {} at {} nm; 0..1 is allowed", spectrum->path, value,
-                                             spectrum->spectrum.nm[i]));
+                file.error(node, fmt::format("reflectance in \"{}\" is {} at {} nm; 0..1 is allowed", spectrum->path,
+                                             value, spectrum->spectrum.nm[i]));
                 return {};
             }
         return std::optional<Reflectance>(std::move(*spectrum));
     }
     if (!node.is_number()) {
-        file.error(node, "reflectance is neither a number 0..1 nor [r, g, b] nor { file = \"paints.csv\", column = \"red\" }");
+        file.error(
+            node, "reflectance is neither a number 0..1 nor [r, g, b] nor { file = \"paints.csv\", column = \"red\" }");
         return {};
     }
     const auto number = read_number(file, node, unit_interval, "reflectance");
@@ -222,7 +228,8 @@ void Reader::read_material(const toml::table& node) {
 std::optional<EmissionSpectrum> Reader::read_emission(const toml::node& node) {
     if (const auto* word = node.as_string()) {
         if (word->get() == "flat") return Flat{};
-        file.error(node, fmt::format("spectrum = \"{}\" is not known; \"flat\", [r, g, b], {{ file = \"lamp.csv\" }} or {{ blackbody = 2700 }} is allowed",
+        file.error(node, fmt::format("spectrum = \"{}\" is not known; \"flat\", [r, g, b], {{ file = \"lamp.csv\" }} "
+                                     "or {{ blackbody = 2700 }} is allowed",
                                      word->get()));
         return {};
     }
@@ -260,9 +267,9 @@ void Reader::read_power(const toml::node& node, Luminaire& luminaire) {
     }
     TomlTable table(file, *inner, "power");
     const std::pair<const char*, PowerUnit> units[] = {{"lumen", PowerUnit::lumen},
-                                                      {"watt", PowerUnit::watt},
-                                                      {"exitance", PowerUnit::exitance},
-                                                      {"radiance", PowerUnit::radiance}};
+                                                       {"watt", PowerUnit::watt},
+                                                       {"exitance", PowerUnit::exitance},
+                                                       {"radiance", PowerUnit::radiance}};
     for (const auto& [key, unit] : units)
         if (const auto power = table.number(key, not_negative)) {
             luminaire.power = *power;
@@ -286,11 +293,13 @@ void Reader::read_luminaire(const toml::table& node) {
     }
     if (const toml::node* spectrum = table.find("spectrum"))
         if (auto read = read_emission(*spectrum)) entry.luminaire.spectrum = std::move(*read);
-    if (const toml::node* power = table.require("power", "{ lumen = 3000 }, { watt = 40 }, { exitance = 1 } or { radiance = 1 } is needed"))
+    if (const toml::node* power =
+            table.require("power", "{ lumen = 3000 }, { watt = 40 }, { exitance = 1 } or { radiance = 1 } is needed"))
         read_power(*power, entry.luminaire);
     entry.luminaire.dimmer = table.number("dimmer", {0, 1e6, true, "0..1e6"}).value_or(1);
     entry.luminaire.side =
-        table.choice<EmitSide>("side", {{"front", EmitSide::front}, {"back", EmitSide::back}, {"both", EmitSide::both}}).value_or(EmitSide::front);
+        table.choice<EmitSide>("side", {{"front", EmitSide::front}, {"back", EmitSide::back}, {"both", EmitSide::both}})
+            .value_or(EmitSide::front);
     table.finish();
     if (!name) return;
     entry.luminaire.name = name->name;
@@ -308,7 +317,8 @@ void Reader::read_camera(const toml::table& node) {
     const auto target = required_point("target");
     const auto up = table.point("up");
     Camera camera;
-    camera.vertical_fov_degrees = table.number("vertical_fov_degrees", {1, 170, true, "1..170"}).value_or(camera.vertical_fov_degrees);
+    camera.vertical_fov_degrees =
+        table.number("vertical_fov_degrees", {1, 170, true, "1..170"}).value_or(camera.vertical_fov_degrees);
     camera.mirrored = table.boolean("mirrored").value_or(false);
     table.finish();
     if (!position || !target) return;
@@ -327,15 +337,18 @@ void Reader::read_camera(const toml::table& node) {
 void Reader::read_display(const toml::table& node) {
     TomlTable table(file, node, "[display]");
     DisplaySettings& display = scene.display;
-    display.max_display = table.number("max_display", {0, 1e12, false, "more than 0, at most 1e12"}).value_or(display.max_display);
+    display.max_display =
+        table.number("max_display", {0, 1e12, false, "more than 0, at most 1e12"}).value_or(display.max_display);
     display.max_display_auto = table.boolean("auto").value_or(display.max_display_auto);
     display.max_display_locked = table.boolean("locked").value_or(display.max_display_locked);
     std::vector<std::pair<std::string, ClipRule>> clips;
-    for (const ClipRule rule : {ClipRule::clamp, ClipRule::keep_chromaticity, ClipRule::desaturate, ClipRule::scale_all})
+    for (const ClipRule rule :
+         {ClipRule::clamp, ClipRule::keep_chromaticity, ClipRule::desaturate, ClipRule::scale_all})
         clips.emplace_back(to_string(rule), rule);
     display.clip = table.choice("clip", clips).value_or(display.clip);
     std::vector<std::pair<std::string, TransferCurve>> curves;
-    for (const TransferCurve curve : {TransferCurve::srgb, TransferCurve::gamma}) curves.emplace_back(to_string(curve), curve);
+    for (const TransferCurve curve : {TransferCurve::srgb, TransferCurve::gamma})
+        curves.emplace_back(to_string(curve), curve);
     display.curve = table.choice("curve", curves).value_or(display.curve);
     display.gamma = table.number("gamma", {0.1, 10, true, "0.1..10"}).value_or(display.gamma);
     table.finish();
@@ -344,15 +357,17 @@ void Reader::read_display(const toml::table& node) {
 void Reader::read_solve(const toml::table& node) {
     TomlTable table(file, node, "[solve]");
     SolveSettings& solve = scene.solve;
-    solve.solver = table.choice<SolverKind>("solver", {{"gathering", SolverKind::gathering}, {"shooting", SolverKind::shooting}})
-                       .value_or(solve.solver);
+    solve.solver =
+        table.choice<SolverKind>("solver", {{"gathering", SolverKind::gathering}, {"shooting", SolverKind::shooting}})
+            .value_or(solve.solver);
     if (const auto wavelengths = table.text("wavelengths")) {
         if (const auto spec = parse_wavelengths(*wavelengths))
             solve.wavelengths = *spec;
         else
             file.error(*node.get("wavelengths"), spec.error());
     }
-    solve.target_error = table.number("target_error", {0, 1, false, "more than 0, at most 1"}).value_or(solve.target_error);
+    solve.target_error =
+        table.number("target_error", {0, 1, false, "more than 0, at most 1"}).value_or(solve.target_error);
     const auto element_size = table.number("element_size", not_negative);
     if (element_size) solve.element_size = metres_from_length(*element_size, scene.unit);
     solve.max_rays = static_cast<int>(table.integer("max_rays", 1, 1 << 20).value_or(solve.max_rays));
@@ -363,7 +378,9 @@ void Reader::read_solve(const toml::table& node) {
 void Reader::read(const toml::table& root) {
     TomlTable table(file, root, "the scene");
     scene.name = table.text("name").value_or("");
-    if (!root.contains("units")) file.error(toml::source_region{{1, 1}, {1, 1}, {}}, "the scene has no units; allowed: metre, centimetre, millimetre, foot, inch");
+    if (!root.contains("units"))
+        file.error(toml::source_region{{1, 1}, {1, 1}, {}},
+                   "the scene has no units; allowed: metre, centimetre, millimetre, foot, inch");
     scene.unit = table.choice("units", unit_words).value_or(LengthUnit::metre);
     scene.up = table.choice("up", up_words).value_or(UpAxis::y);
 
@@ -389,8 +406,8 @@ void Reader::read(const toml::table& root) {
 
 } // namespace
 
-std::optional<SceneDescription> read_toml_scene(const std::string& text, const std::string& file, const std::filesystem::path& folder,
-                                                Diagnostics& diagnostics) {
+std::optional<SceneDescription> read_toml_scene(const std::string& text, const std::string& file,
+                                                const std::filesystem::path& folder, Diagnostics& diagnostics) {
     try {
         const toml::table root = toml::parse(std::string_view(text));
         Reader reader{{file, diagnostics}, folder, {}};
@@ -398,7 +415,8 @@ std::optional<SceneDescription> read_toml_scene(const std::string& text, const s
         return std::move(reader.scene);
     } catch (const toml::parse_error& error) {
         const toml::source_position& begin = error.source().begin;
-        diagnostics.error(file, {begin.line, begin.column}, fmt::format("{}; a TOML file is allowed", error.description()));
+        diagnostics.error(file, {begin.line, begin.column},
+                          fmt::format("{}; a TOML file is allowed", error.description()));
         return {};
     }
 }

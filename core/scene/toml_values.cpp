@@ -10,16 +10,26 @@ namespace {
 
 std::string type_name(const toml::node& node) {
     switch (node.type()) {
-    case toml::node_type::none: return "nothing";
-    case toml::node_type::table: return "a table";
-    case toml::node_type::array: return "an array";
-    case toml::node_type::string: return "a text";
-    case toml::node_type::integer: return "an integer";
-    case toml::node_type::floating_point: return "a number";
-    case toml::node_type::boolean: return "true or false";
-    case toml::node_type::date: return "a date";
-    case toml::node_type::time: return "a time";
-    case toml::node_type::date_time: return "a date and time";
+    case toml::node_type::none:
+        return "nothing";
+    case toml::node_type::table:
+        return "a table";
+    case toml::node_type::array:
+        return "an array";
+    case toml::node_type::string:
+        return "a text";
+    case toml::node_type::integer:
+        return "an integer";
+    case toml::node_type::floating_point:
+        return "a number";
+    case toml::node_type::boolean:
+        return "true or false";
+    case toml::node_type::date:
+        return "a date";
+    case toml::node_type::time:
+        return "a time";
+    case toml::node_type::date_time:
+        return "a date and time";
     }
     return "something else";
 }
@@ -45,20 +55,25 @@ void TomlFile::error(const toml::source_region& source, std::string_view what) c
     diagnostics.error(name, {source.begin.line, source.begin.column}, what);
 }
 
-Place place_of(const toml::node& node) { return {node.source().begin.line, node.source().begin.column}; }
+Place place_of(const toml::node& node) {
+    return {node.source().begin.line, node.source().begin.column};
+}
 
-std::optional<double> read_number(const TomlFile& file, const toml::node& node, const NumberRange& range, std::string_view what) {
+std::optional<double> read_number(const TomlFile& file, const toml::node& node, const NumberRange& range,
+                                  std::string_view what) {
     double number = 0;
     if (const auto* integer = node.as_integer())
         number = static_cast<double>(integer->get());
     else if (const auto* real = node.as_floating_point())
         number = real->get();
     else {
-        file.error(node, fmt::format("{} is {}; a number{}{} is allowed", what, type_name(node), range.text.empty() ? "" : " ", range.text));
+        file.error(node, fmt::format("{} is {}; a number{}{} is allowed", what, type_name(node),
+                                     range.text.empty() ? "" : " ", range.text));
         return {};
     }
     if (!std::isfinite(number)) {
-        file.error(node, fmt::format("{} is not finite; {} is allowed", what, range.text.empty() ? "a finite number" : range.text));
+        file.error(node, fmt::format("{} is not finite; {} is allowed", what,
+                                     range.text.empty() ? "a finite number" : range.text));
         return {};
     }
     if (number < range.low || number > range.high || (number == range.low && !range.low_allowed)) {
@@ -94,7 +109,7 @@ std::optional<std::string> read_text(const TomlFile& file, const toml::node& nod
 
 std::string allowed_words(std::string_view word, const std::vector<std::string>& allowed) {
     std::string nearest;
-    std::size_t distance = std::max<std::size_t>(1, word.size() / 3) + 1;
+    std::size_t distance = word.size() <= 3 ? 2 : std::max<std::size_t>(2, word.size() / 3) + 1; // nearer than this
     for (const std::string& candidate : allowed)
         if (const std::size_t d = edit_distance(word, candidate); d < distance) {
             distance = d;
@@ -160,7 +175,8 @@ std::optional<glm::dvec3> TomlTable::point(std::string_view key) {
 void TomlTable::finish() const {
     for (const auto& [key, node] : table_)
         if (std::find(known_.begin(), known_.end(), key.str()) == known_.end())
-            file_.error(key.source(), fmt::format("{} has no key \"{}\"; {}", name_, key.str(), allowed_words(key.str(), known_)));
+            file_.error(key.source(),
+                        fmt::format("{} has no key \"{}\"; {}", name_, key.str(), allowed_words(key.str(), known_)));
 }
 
 } // namespace lueur

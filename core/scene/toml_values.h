@@ -1,8 +1,8 @@
-// Checked reading of TOML values: wrong types, values out of range and unknown keys each become an error with its place.
+// Checked reading of TOML values: wrong types, values out of range and unknown keys each become an error with its
+// place.
 #pragma once
 
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -30,7 +30,8 @@ struct NumberRange {
 };
 
 // Each gives nothing after having told the error.
-std::optional<double> read_number(const TomlFile& file, const toml::node& node, const NumberRange& range, std::string_view what);
+std::optional<double> read_number(const TomlFile& file, const toml::node& node, const NumberRange& range,
+                                  std::string_view what);
 std::optional<std::vector<double>> read_numbers(const TomlFile& file, const toml::node& node, std::size_t count,
                                                 const NumberRange& range, std::string_view what);
 std::optional<std::string> read_text(const TomlFile& file, const toml::node& node, std::string_view what);

@@ -1,4 +1,5 @@
-// A scene as TOML (scene_file.h has the format). Numbers are the shortest that read back exactly, so that saving again changes no byte.
+// A scene as TOML (scene_file.h has the format). Numbers are the shortest that read back exactly, so that saving again
+// changes no byte.
 #include <algorithm>
 #include <map>
 #include <set>
@@ -21,10 +22,18 @@ struct Overload : Cases... {
 std::string quoted(const std::string& text) { // TOML basic string
     std::string result = "\"";
     for (const char letter : text) switch (letter) {
-        case '"': result += "\\\""; break;
-        case '\\': result += "\\\\"; break;
-        case '\n': result += "\\n"; break;
-        case '\t': result += "\\t"; break;
+        case '"':
+            result += "\\\"";
+            break;
+        case '\\':
+            result += "\\\\";
+            break;
+        case '\n':
+            result += "\\n";
+            break;
+        case '\t':
+            result += "\\t";
+            break;
         default:
             if (static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f)
                 result += fmt::format("\\u{:04X}", static_cast<unsigned>(static_cast<unsigned char>(letter)));
@@ -34,7 +43,9 @@ std::string quoted(const std::string& text) { // TOML basic string
     return result + "\"";
 }
 
-std::string number(double value) { return fmt::format("{}", value + 0.0); } // "-0" would be read as the integer 0
+std::string number(double value) {
+    return fmt::format("{}", value + 0.0);
+} // "-0" would be read as the integer 0
 
 template <int count>
 std::string numbers(const glm::vec<count, double>& values) {
@@ -50,31 +61,42 @@ std::string list(const std::vector<glm::vec<count, double>>& rows) {
     return result + "]";
 }
 
-const char* truth(bool value) { return value ? "true" : "false"; }
+const char* truth(bool value) {
+    return value ? "true" : "false";
+}
 
 const char* power_word(PowerUnit unit) {
     switch (unit) {
-    case PowerUnit::lumen: return "lumen";
-    case PowerUnit::watt: return "watt";
-    case PowerUnit::exitance: return "exitance";
-    case PowerUnit::radiance: return "radiance";
+    case PowerUnit::lumen:
+        return "lumen";
+    case PowerUnit::watt:
+        return "watt";
+    case PowerUnit::exitance:
+        return "exitance";
+    case PowerUnit::radiance:
+        return "radiance";
     }
     return "";
 }
 
 const char* side_word(EmitSide side) {
     switch (side) {
-    case EmitSide::front: return "front";
-    case EmitSide::back: return "back";
-    case EmitSide::both: return "both";
+    case EmitSide::front:
+        return "front";
+    case EmitSide::back:
+        return "back";
+    case EmitSide::both:
+        return "both";
     }
     return "";
 }
 
 const char* solver_word(SolverKind solver) {
     switch (solver) {
-    case SolverKind::gathering: return "gathering";
-    case SolverKind::shooting: return "shooting";
+    case SolverKind::gathering:
+        return "gathering";
+    case SolverKind::shooting:
+        return "shooting";
     }
     return "";
 }
@@ -89,8 +111,12 @@ struct Writer {
         fmt::format_to(std::back_inserter(text), format, std::forward<Arguments>(arguments)...);
         text += '\n';
     }
-    std::string path(const std::string& written) const { return quoted(path_from_folder(written, scene.folder, folder)); }
-    std::string file_point(const glm::dvec3& point) const { return numbers(file_from_world(point, scene.unit, scene.up)); }
+    std::string path(const std::string& written) const {
+        return quoted(path_from_folder(written, scene.folder, folder));
+    }
+    std::string file_point(const glm::dvec3& point) const {
+        return numbers(file_from_world(point, scene.unit, scene.up));
+    }
 
     std::string spectrum_file(const SpectrumFile& file) const {
         if (file.column.empty()) return fmt::format("{{ file = {} }}", path(file.path));
@@ -102,7 +128,8 @@ struct Writer {
         line("file = {}", path(file.path));
         if (file.unit) line("units = \"{}\"", to_string(*file.unit));
         if (file.up) line("up = \"{}\"", to_string(*file.up));
-        if (file.imported && file.imported->emissive) line("imported_emission = false # the luminaires below say it all");
+        if (file.imported && file.imported->emissive)
+            line("imported_emission = false # the luminaires below say it all");
     }
 
     void source(const InlinePolygon& polygon, const std::map<std::string, std::string>& material_of_object) {
@@ -117,12 +144,14 @@ struct Writer {
     void sources() {
         std::map<std::string, std::string> material_of_object, imported_material;
         std::set<std::string> textured;
-        for (const Object& object : scene.objects) material_of_object[object.name] = scene.materials[at(object.material)].name;
+        for (const Object& object : scene.objects)
+            material_of_object[object.name] = scene.materials[at(object.material)].name;
         for (const GeometrySource& one : scene.sources)
             if (const auto* file = std::get_if<GeometryFile>(&one)) {
                 source(*file);
                 if (!file->imported) continue;
-                imported_material.insert(file->imported->object_material.begin(), file->imported->object_material.end());
+                imported_material.insert(file->imported->object_material.begin(),
+                                         file->imported->object_material.end());
                 textured.insert(file->imported->textured_materials.begin(), file->imported->textured_materials.end());
             }
         for (const GeometrySource& one : scene.sources)
@@ -143,7 +172,8 @@ struct Writer {
         line("name = {}", quoted(one.name));
         const Rgb* rgb = std::get_if<Rgb>(&one.reflectance);
         if (!one.texture || !rgb || *rgb != one.texture->mean)
-            line("reflectance = {}", std::visit(Overload{[](double grey) { return number(grey); }, [](const Rgb& colour) { return numbers(colour); },
+            line("reflectance = {}", std::visit(Overload{[](double grey) { return number(grey); },
+                                                         [](const Rgb& colour) { return numbers(colour); },
                                                          [&](const SpectrumFile& file) { return spectrum_file(file); }},
                                                 one.reflectance));
         if (one.texture)
@@ -157,11 +187,15 @@ struct Writer {
         line("\n[[luminaire]]");
         line("name = {}", quoted(one.name));
         std::string names;
-        for (const ObjectIndex object : one.objects) names += (names.empty() ? "" : ", ") + quoted(scene.objects[at(object)].name);
+        for (const ObjectIndex object : one.objects)
+            names += (names.empty() ? "" : ", ") + quoted(scene.objects[at(object)].name);
         line("objects = [{}]", names);
-        line("spectrum = {}", std::visit(Overload{[](const Flat&) { return std::string("\"flat\""); }, [](const Rgb& colour) { return numbers(colour); },
+        line("spectrum = {}", std::visit(Overload{[](const Flat&) { return std::string("\"flat\""); },
+                                                  [](const Rgb& colour) { return numbers(colour); },
                                                   [&](const SpectrumFile& file) { return spectrum_file(file); },
-                                                  [](const Blackbody& body) { return fmt::format("{{ blackbody = {} }}", number(body.kelvin)); }},
+                                                  [](const Blackbody& body) {
+                                                      return fmt::format("{{ blackbody = {} }}", number(body.kelvin));
+                                                  }},
                                          one.spectrum));
         line("power = {{ {} = {} }}", power_word(one.unit), number(one.power));
         line("dimmer = {}", number(one.dimmer));

@@ -8,12 +8,17 @@ namespace lueur {
 
 namespace {
 
-double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
+double cross(const glm::dvec2& a, const glm::dvec2& b) {
+    return a.x * b.y - a.y * b.x;
+}
 
 // Twice the signed area.
-double turn(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) { return cross(b - a, c - a); }
+double turn(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
+    return cross(b - a, c - a);
+}
 
-// Newell's normal (Sutherland, Sproull & Schumacker 1974): twice the area in length, sound for concave and bent polygons.
+// Newell's normal (Sutherland, Sproull & Schumacker 1974): twice the area in length, sound for concave and bent
+// polygons.
 glm::dvec3 newell_normal(std::span<const glm::dvec3> polygon) {
     glm::dvec3 sum{0};
     for (std::size_t i = 0; i < polygon.size(); ++i)
@@ -42,10 +47,10 @@ std::vector<glm::uvec3> quad_triangles(std::span<const glm::dvec3> p, const glm:
 }
 
 struct EarClipper {
-    std::vector<glm::dvec2> point;        // counter-clockwise
+    std::vector<glm::dvec2> point; // counter-clockwise
     std::vector<std::uint32_t> next, previous;
-    std::vector<double> quality;          // of the ear at a vertex: its height over its longest edge; negative: no ear
-    double tolerance;                     // area below which a turn is straight
+    std::vector<double> quality; // of the ear at a vertex: its height over its longest edge; negative: no ear
+    double tolerance;            // area below which a turn is straight
 
     explicit EarClipper(std::vector<glm::dvec2> points, double area)
         : point(std::move(points))
@@ -78,7 +83,8 @@ struct EarClipper {
         std::iota(left.begin(), left.end(), 0u);
         bool all_are_fresh = true;
         while (left.size() > 2) {
-            const auto best = std::max_element(left.begin(), left.end(), [&](auto a, auto b) { return quality[a] < quality[b]; });
+            const auto best =
+                std::max_element(left.begin(), left.end(), [&](auto a, auto b) { return quality[a] < quality[b]; });
             const std::uint32_t i = *best;
             if (quality[i] < 0) {
                 if (!all_are_fresh) { // clipping elsewhere may have freed an ear
@@ -123,7 +129,8 @@ std::expected<std::vector<glm::uvec3>, std::string> triangulate(std::span<const 
     if (polygon.size() < 3) return std::unexpected("has fewer than 3 vertices");
     const glm::dvec3 sum = newell_normal(polygon);
     double perimeter = 0;
-    for (std::size_t i = 0; i < polygon.size(); ++i) perimeter += glm::distance(polygon[i], polygon[(i + 1) % polygon.size()]);
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+        perimeter += glm::distance(polygon[i], polygon[(i + 1) % polygon.size()]);
     const double twice_area = glm::length(sum);
     if (!(twice_area > 1e-12 * perimeter * perimeter)) return std::unexpected("has no area");
     const glm::dvec3 normal = sum / twice_area;
@@ -138,7 +145,8 @@ std::expected<std::vector<glm::uvec3>, std::string> triangulate(std::span<const 
         for (const glm::dvec3& p : polygon) flat.emplace_back(glm::dot(p - polygon[0], u), glm::dot(p - polygon[0], v));
         triangles = EarClipper(std::move(flat), twice_area).clip();
     }
-    double covered = 0; // as seen along the normal; a border that crosses itself is covered more than once or not at all
+    double covered =
+        0; // as seen along the normal; a border that crosses itself is covered more than once or not at all
     for (const glm::uvec3& triangle : triangles) covered += glm::dot(triangle_normal(polygon, triangle), normal);
     if (std::abs(covered - twice_area) > 1e-6 * twice_area) return std::unexpected("has a border that crosses itself");
     return triangles;

@@ -7,7 +7,8 @@ namespace lueur {
 
 double metres_from_length(double length, LengthUnit unit);
 
-// The shortest decimal, in `unit`, that is read as exactly these metres: a scene saved again and again never drifts.
+// The shortest decimal, in `unit`, that is read as exactly these metres (feet and inches: to the last bit but one): a
+// scene saved again and again never drifts.
 double length_from_metres(double metres, LengthUnit unit);
 
 // Z up: file (x, y, z) is world (x, z, -y). Directions are points with unit metre.

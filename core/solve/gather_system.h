@@ -8,6 +8,7 @@
 
 #include <array>
 #include <atomic>
+#include <span>
 #include <vector>
 
 #include "core/solve/channel_field.h"
@@ -17,7 +18,7 @@ namespace lueur {
 
 // out_i = mean over all rays of all passes of field[end of ray]. `field` has one more row than receivers, which is zero: the outside.
 // False (and out undefined) when cancelled.
-bool apply_rows(const std::vector<GatherPass>& passes, const ChannelField& field, ChannelField& out,
+bool apply_rows(std::span<const GatherPass> passes, const ChannelField& field, ChannelField& out,
                 const std::atomic<bool>& cancel);
 
 class GatherSystem {
@@ -29,7 +30,8 @@ public:
     // A new right side (rho * H_direct) and reflectance; keeps the solution so far as the first guess, scaled in each channel so that
     // its residual is smallest. Needs no ray and no application of W.
     void set_sources(const ChannelField& rho, const ChannelField& direct);
-    void rows_changed(const std::vector<GatherPass>& passes, const std::atomic<bool>& cancel); // more passes: H = W B anew
+    void set_rows(const std::vector<GatherPass>& passes);   // other rays: H = W B anew
+    void add_pass(const std::vector<GatherPass>& passes);   // the last pass is new
     void clear(); // B = 0
 
     bool sweep(const std::vector<GatherPass>& passes, const std::atomic<bool>& cancel); // false when cancelled (nothing changed)

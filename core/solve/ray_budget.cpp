@@ -25,22 +25,18 @@ double pass_mean(const GatherPass& pass, std::uint32_t receiver, const std::vect
 
 double ray_error(std::span<const GatherPass> passes, std::span<const float> radiosity, std::span<const float> direct,
                  std::span<const float> weight) {
-    if (passes.size() < 2) return 1;
+    if (passes.size() < independent_sets || passes.size() % independent_sets != 0) return 1;
     const std::uint32_t n = static_cast<std::uint32_t>(radiosity.size());
     std::vector<float> b(radiosity.begin(), radiosity.end());
     b.push_back(0);
     std::vector<float> total(n), variance(n);
     tbb::parallel_for(Range(0, n, 256), [&](const Range& range) {
         for (std::uint32_t i = range.begin(); i < range.end(); ++i) {
-            double mean = 0, square = 0;
-            for (const GatherPass& pass : passes) {
-                const double h = pass_mean(pass, i, b);
-                mean += h, square += h * h;
-            }
-            const double p = double(passes.size());
-            mean /= p;
-            total[i] = static_cast<float>(direct[i] + mean);
-            variance[i] = static_cast<float>(std::max(0.0, square / p - mean * mean) / (p - 1));
+            double sets[independent_sets] = {};
+            for (std::size_t p = 0; p < passes.size(); ++p)
+                sets[p % independent_sets] += independent_sets * pass_mean(passes[p], i, b) / double(passes.size());
+            total[i] = static_cast<float>(direct[i] + (sets[0] + sets[1]) / 2);
+            variance[i] = static_cast<float>((sets[0] - sets[1]) * (sets[0] - sets[1]) / 4);
         }
     });
     double area = 0, flux = 0;

@@ -1,6 +1,7 @@
 // How many gather rays a scene needs, and how wrong the rays there are leave a solution.
 //
-// Passes are independent ray sets, so the spread of the irradiance between them is its standard error. The budget must not depend on paints or dimmers
+// Even and odd passes are two independent ray sets A and B of one size: the mean of their irradiances has the variance (H_A - H_B)^2 / 4. One
+// difference says little of one receiver, but much of thousands. The budget must not depend on paints or dimmers
 // (or a solution after edits would differ from a fresh one): it is found with a grey stand-in, every surface 0.5 and all luminaires of the same
 // flux, in one channel.
 #pragma once
@@ -12,8 +13,8 @@
 
 namespace lueur {
 
-// Relative RMS standard error of the irradiance direct + W B over receivers brighter than 2 % of the mean, from the spread of the passes.
-// radiosity: one a coarse vertex, solved on these passes. At least two passes, else 1. Receivers with weight 0 do not count.
+// Relative RMS standard error of the irradiance direct + W B over receivers brighter than 2 % of the mean, from the two sets.
+// radiosity: one a coarse vertex, solved on these passes. An even number of passes, at least two, else 1. Receivers with weight 0 do not count.
 double ray_error(std::span<const GatherPass> passes, std::span<const float> radiosity, std::span<const float> direct,
                  std::span<const float> weight);
 

@@ -15,7 +15,7 @@ namespace lueur {
 
 namespace {
 
-constexpr double residual_target = 1e-4;  // |r| / |b|, worst channel
+constexpr double residual_target = 2e-4;  // |r| / |b|, worst channel
 constexpr std::uint32_t most_sweeps = 400; // a system that needs more does not converge
 constexpr double ray_share = 0.7;         // of the target error that the rays may take; interpolation has the rest
 constexpr double shooting_target = 0.002; // unshot share at which shooting ends
@@ -199,7 +199,7 @@ void step_mesh(State& s) {
     s.world = std::make_shared<const World>(s.mesh);
     s.origins = ray_origins(s.mesh, s.world->epsilon());
     s.buried.assign(s.mesh.coarse_vertex_count, 0);
-    const DirectParams params{0.03f, static_cast<float>(size / 10), 20000 + 4 * s.mesh.coarse_vertex_count};
+    const DirectParams params{0.03f, static_cast<float>(size / 6), 20000 + 4 * s.mesh.coarse_vertex_count};
     s.direct = std::make_unique<DirectTransport>(*s.world, s.mesh, make_emitters(*s.scene), params);
     publish_mesh(s);
     s.cursor = 0;
@@ -240,28 +240,35 @@ void step_gather(State& s, const std::atomic<bool>& cancel) {
     s.status.rays_per_receiver = static_cast<std::uint32_t>(s.passes.size()) * rays_per_pass;
     s.status.row_entries = std::uint64_t(s.mesh.coarse_vertex_count) * s.status.rays_per_receiver;
     if (!s.solving) start_gathering(s);
-    std::atomic<bool> never{false};
-    s.system.rows_changed(s.passes, never);
+    s.system.add_pass(s.passes);
     s.status.sweeps = 0;
-    s.phase = SolvePhase::sweep;
+    if (s.passes.size() >= s.passes_wanted) s.phase = SolvePhase::sweep;
 }
 
 std::uint32_t most_passes(const State& s) {
-    return std::max<std::uint32_t>(2, static_cast<std::uint32_t>(s.scene->solve.max_rays) / rays_per_pass);
+    constexpr int group = independent_sets * rays_per_pass;
+    return independent_sets * std::max<std::uint32_t>(1, static_cast<std::uint32_t>(s.scene->solve.max_rays) / group);
 }
 
-// More rays? Asked each time there are as many as were wanted; the answer depends on the geometry only.
+// More rays? Asked each time there are as many as were wanted; the answer depends on the geometry only. The error of a quasi-random
+// set falls somewhat faster than one over the root of its rays; two thirds of the way that would leave are gone at once.
 void plan_passes(State& s) {
     const std::uint32_t now = static_cast<std::uint32_t>(s.passes.size());
-    if (now < 2) {
-        s.passes_wanted = 2;
+    if (s.rays_planned || now < s.passes_wanted) return;
+    if (now < independent_sets) {
+        s.passes_wanted = independent_sets;
         return;
     }
-    if (now < s.passes_wanted) return;
     const double target = ray_share * s.scene->solve.target_error;
     const double error = grey_ray_error(s.passes, equal_flux_direct(s), unburied_area(s));
-    if (error <= target) return;
-    s.passes_wanted = std::min(most_passes(s), now + 1);
+    if (error <= target || now >= most_passes(s)) {
+        s.rays_planned = true;
+        return;
+    }
+    const double needed = now * std::pow(error / target, 4.0 / 3);
+    std::uint32_t next = now + std::max(1u, static_cast<std::uint32_t>(0.67 * (needed - now)));
+    next = (next + independent_sets - 1) / independent_sets * independent_sets;
+    s.passes_wanted = std::min(most_passes(s), next);
 }
 
 void step_sweep(State& s, const std::atomic<bool>& cancel) {
@@ -304,14 +311,14 @@ void step_refine(State& s, const std::atomic<bool>& cancel) {
     s.phase = s.scene->solve.solver == SolverKind::shooting ? SolvePhase::shoot : SolvePhase::sweep;
 }
 
-void step_shoot(State& s, const std::atomic<bool>& cancel) {
+void step_shoot(State& s, const std::atomic<bool>& cancel, bool one_shot) {
     s.status.stage = SolveStage::solving;
     const auto start = std::chrono::steady_clock::now();
     const std::uint64_t rays_before = s.shooting.rays();
     bool more = true;
     do {
         more = s.shooting.shoot();
-    } while (more && s.shooting.unshot_share() > shooting_target && !cancel.load(std::memory_order_relaxed) &&
+    } while (more && !one_shot && s.shooting.unshot_share() > shooting_target && !cancel.load(std::memory_order_relaxed) &&
              s.shooting.luminaires_shot() == s.direct->emitter_count() &&
              std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < step_seconds);
     s.status.rays += s.shooting.rays() - rays_before;
@@ -382,6 +389,7 @@ void Solution::update(std::shared_ptr<const Scene> scene, SolveFrom stale) {
     if (s.scene->solve.target_error != before.target_error || s.scene->solve.max_rays != before.max_rays) {
         s.passes.clear(); // the number of rays follows from the settings, never from what was there before
         s.passes_wanted = 1;
+        s.rays_planned = false;
         s.pass_open = false;
         s.solving = false;
     }
@@ -404,14 +412,11 @@ void Solution::update(std::shared_ptr<const Scene> scene, SolveFrom stale) {
     }
     const bool fresh = !s.solving;
     start_gathering(s);
-    if (fresh) {
-        std::atomic<bool> never{false};
-        s.system.rows_changed(s.passes, never);
-    }
+    if (fresh) s.system.set_rows(s.passes);
     s.phase = SolvePhase::sweep;
 }
 
-bool Solution::step(const std::atomic<bool>& cancel) {
+bool Solution::step(const std::atomic<bool>& cancel, bool one_shot) {
     State& s = *state_;
     if (s.phase == SolvePhase::settled || s.phase == SolvePhase::failed) return false;
     const auto start = std::chrono::steady_clock::now();
@@ -423,7 +428,7 @@ bool Solution::step(const std::atomic<bool>& cancel) {
     case SolvePhase::gather: step_gather(s, cancel); break;
     case SolvePhase::sweep: step_sweep(s, cancel); break;
     case SolvePhase::refine: step_refine(s, cancel); break;
-    case SolvePhase::shoot: step_shoot(s, cancel); break;
+    case SolvePhase::shoot: step_shoot(s, cancel, one_shot); break;
     case SolvePhase::settled:
     case SolvePhase::failed: break;
     }

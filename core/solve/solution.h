@@ -29,7 +29,8 @@ public:
     void update(std::shared_ptr<const Scene> scene, SolveFrom stale);
 
     // One small step (about 5 ms of work a core); stops early and resumably when `cancel` becomes true. False when nothing is left to do.
-    bool step(const std::atomic<bool>& cancel);
+    // `one_shot`: a step of the shooting solver is a single shot, to be looked at.
+    bool step(const std::atomic<bool>& cancel, bool one_shot = false);
 
     const SolveStatus& status() const;
     const std::shared_ptr<const Scene>& scene() const;

@@ -31,6 +31,7 @@ struct Solution::State {
     std::vector<GatherPass> passes;
     bool pass_open = false;                      // the last pass is being traced
     std::uint32_t passes_wanted = 1;             // from the geometry alone: see passes_for
+    bool rays_planned = false;                   // passes_wanted will not grow any more
     bool refined = false;
     std::vector<float> coarse_direct;            // D restricted to coarse vertices, * emitters
     std::vector<float> coarse_area;              // m^2 of each coarse vertex

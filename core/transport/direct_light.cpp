@@ -12,7 +12,7 @@ namespace lueur {
 
 namespace {
 
-constexpr int shadow_points = 64;    // in a penumbra
+constexpr int shadow_points = 36;    // in a penumbra
 constexpr int probe_points = 6;      // settle the fully lit and the fully dark
 constexpr float far_diameters = 4;   // from here on points replace the exact formula
 constexpr std::size_t most_exact_triangles = 64;

@@ -49,6 +49,7 @@ void trace_gather_rays(const World& world, const Mesh& mesh, const std::vector<g
                        const std::vector<std::uint8_t>& buried, std::uint32_t seed, std::uint32_t pass, std::uint32_t first,
                        std::uint32_t last, GatherPass& out) {
     const std::uint32_t none = mesh.coarse_vertex_count;
+    const std::uint32_t key = hash(hash(seed, pass), 0x5bd1e995u); // of the choices of vertices
     for (std::uint32_t i = first; i < last; ++i) {
         std::uint32_t* ends = out.ends.data() + std::size_t(i) * rays_per_pass;
         if (buried[i]) {
@@ -56,13 +57,13 @@ void trace_gather_rays(const World& world, const Mesh& mesh, const std::vector<g
             continue;
         }
         const Frame frame(mesh.vertices[i].normal);
-        const std::uint32_t key = hash(seed, pass);
-        const glm::vec2 offset = random_offset(key, i);
+        const glm::vec2 offset = random_offset(hash(seed, pass % independent_sets), i);
+        const std::uint32_t first_point = pass / independent_sets * rays_per_pass;
         for (std::uint32_t k = 0; k < rays_per_pass; ++k) {
-            const Hit hit = world.closest({origins[i], frame.world(cosine_direction(r2_point(k, offset)))});
+            const Hit hit = world.closest({origins[i], frame.world(cosine_direction(r2_point(first_point + k, offset)))});
             ends[k] = none;
             if (hit.element == no_index) continue;
-            const float u = unit_float(hash(key ^ 0x5bd1e995u, i * rays_per_pass + k));
+            const float u = unit_float(hash(key, i * rays_per_pass + k));
             const std::uint32_t v = pick_vertex(mesh.nodes[hit.element].vertices, hit, buried, u);
             if (v != no_index) ends[k] = v;
         }

@@ -3,7 +3,8 @@
 // This is the lecture's hemisphere with its item buffer, kept: each ray carries an equal share of the form factors, so that
 // W_ij = (rays of i that end at vertex j) / (rays of i) and a row sums to the share of rays that hit anything: 1 in a closed scene. A hit inside an element
 // is given to one of its three vertices, drawn with its interpolation weight: linear interpolation, unbiased, one index a ray.
-// Passes are independent ray sets of one size; their spread is the error estimate.
+// Rays come in passes of one size. Even passes continue one quasi-random sequence, odd passes another, independent one: long sequences are
+// better spread than many short ones (twice the accuracy at 512 rays), and the difference of the two tells the error.
 #pragma once
 
 #include <cstdint>
@@ -15,6 +16,7 @@
 namespace lueur {
 
 inline constexpr int rays_per_pass = 32;
+inline constexpr int independent_sets = 2; // pass p belongs to set p % 2
 
 // Coarse vertices whose rays mostly meet back faces lie inside a solid (a floor vertex under a block): they take no part.
 // Receivers in [first, last) of `origins`; the result is written to buried[first..last).

@@ -79,9 +79,10 @@ Irradiance read_field(const Solution::State& s, glm::vec3 position, glm::vec3 no
     return result;
 }
 
-Irradiance reference(const Solution::State& s, glm::vec3 origin, glm::vec3 normal, int paths, std::uint32_t seed) {
+Irradiance reference(const Solution::State& s, glm::vec3 origin, glm::vec3 normal, int paths, std::uint32_t seed,
+                     const std::atomic<bool>& cancel) {
     std::array<double, batches> luminous{};
-    Irradiance result = from_channels(s.wavelengths, trace_irradiance(s, origin, normal, paths, seed, luminous));
+    Irradiance result = from_channels(s.wavelengths, trace_irradiance(s, origin, normal, paths, seed, cancel, luminous));
     set_standard_error(result, luminous);
     return result;
 }
@@ -103,9 +104,10 @@ std::vector<Irradiance> measure_points(const Solution& solution, std::span<const
             switch (params.at) {
             case MeasureAt::gather: results[i] = gather(s, origin, normal, params.rays, seed); break;
             case MeasureAt::field: results[i] = read_field(s, position, normal); break;
-            case MeasureAt::reference: results[i] = reference(s, origin, normal, params.rays, seed); break;
+            case MeasureAt::reference: results[i] = reference(s, origin, normal, params.rays, seed, cancel); break;
             }
         });
+        if (cancel.load(std::memory_order_relaxed)) return {};
         if (progress) progress(double(std::min(points.size(), first + block)) / double(points.size()));
     }
     return results;

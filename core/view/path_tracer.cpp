@@ -39,7 +39,7 @@ float direct_sample(const World& world, const Emitter& emitter, glm::vec3 origin
 } // namespace
 
 std::vector<double> trace_irradiance(const Solution::State& s, glm::vec3 origin, glm::vec3 normal, int paths, std::uint32_t seed,
-                                     std::span<double, 8> luminous_batches) {
+                                     const std::atomic<bool>& cancel, std::span<double, 8> luminous_batches) {
     const World& world = *s.world;
     const auto& emitters = s.direct->emitters();
     const int channels = s.wavelengths.size();
@@ -61,7 +61,7 @@ std::vector<double> trace_irradiance(const Solution::State& s, glm::vec3 origin,
     Random random(seed);
     const glm::vec2 offset = random.next2();
     std::vector<double> throughput(channels);
-    for (int path = 0; path < paths; ++path) {
+    for (int path = 0; path < paths && !cancel.load(std::memory_order_relaxed); ++path) {
         const int batch = path % 8;
         ++batch_paths[batch];
         const auto deposit = [&](std::size_t l, double factor) {

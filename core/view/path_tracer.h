@@ -5,6 +5,7 @@
 // triangles.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -13,8 +14,9 @@
 
 namespace lueur {
 
-// Irradiance per channel at a point (already off its surface); `luminous_batches` gets the illuminance of 8 independent eighths of the paths.
+// Irradiance per channel at a point (already off its surface); `luminous_batches` gets the illuminance of 8 independent eighths of the paths. Stops early (with
+// numbers of no use) when cancelled.
 std::vector<double> trace_irradiance(const Solution::State& state, glm::vec3 origin, glm::vec3 normal, int paths, std::uint32_t seed,
-                                     std::span<double, 8> luminous_batches);
+                                     const std::atomic<bool>& cancel, std::span<double, 8> luminous_batches);
 
 } // namespace lueur

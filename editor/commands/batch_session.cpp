@@ -25,7 +25,9 @@ void BatchSession::error(const std::string& line) {
     fmt::print(stderr, "{}\n", line);
 }
 
-void BatchSession::warning(const std::string& line) { error("warning: " + line); }
+void BatchSession::warning(const std::string& line) {
+    error("warning: " + line);
+}
 
 int BatchSession::failed(const std::string& line) {
     error(fmt::format("lueur {}: {}", command_, line));
@@ -73,12 +75,19 @@ std::expected<void, int> BatchSession::solve(Solution& solution, bool geometry_o
 
     const SolveStatus& status = solution.status();
     switch (solved_.end) {
-    case SolveEnd::cancelled: return std::unexpected(exit_interrupted);
-    case SolveEnd::failed: return std::unexpected(failed(status.message.empty() ? "the solve failed" : status.message));
+    case SolveEnd::cancelled:
+        return std::unexpected(exit_interrupted);
+    case SolveEnd::failed:
+        return std::unexpected(failed(status.message.empty() ? "the solve failed" : status.message));
     case SolveEnd::settled:
-    case SolveEnd::out_of_time: break;
+    case SolveEnd::out_of_time:
+        break;
     }
     if (!status.message.empty()) warning(status.message);
+    if (params_.solve.target_error && solved_.end == SolveEnd::settled &&
+        status.estimated_error > *params_.solve.target_error)
+        warning(fmt::format("the {} stays above the {:.2g} % asked for: max_rays of the scene is reached",
+                            error_text(status), 100 * *params_.solve.target_error));
     return {};
 }
 

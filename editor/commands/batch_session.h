@@ -31,9 +31,9 @@ public:
     int finish(const Solution& solution);
 
     void timed(const std::string& stage, const std::function<void()>& work); // adds to the stage times of the report
-    void error(const std::string& line);   // as it is: `FILE:LINE:COLUMN: ...`
-    void warning(const std::string& line); // `warning: ...`
-    int failed(const std::string& line);   // `lueur COMMAND: ...`; exit_failed
+    void error(const std::string& line);                                     // as it is: `FILE:LINE:COLUMN: ...`
+    void warning(const std::string& line);                                   // `warning: ...`
+    int failed(const std::string& line);                                     // `lueur COMMAND: ...`; exit_failed
 
     const std::atomic<bool>& cancel() const { return cancel_; }
     ProgressBar& bar() { return bar_; }

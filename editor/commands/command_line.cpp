@@ -43,7 +43,8 @@ std::string wrapped(const std::string& text) {
     return lines;
 }
 
-CLI::Option* add(CLI::App& app, const std::string& name, const std::string& type, const std::string& help, const Read& read) {
+CLI::Option* add(CLI::App& app, const std::string& name, const std::string& type, const std::string& help,
+                 const Read& read) {
     return app.add_option_function<std::string>(name, read, wrapped(help))->type_name(type);
 }
 
@@ -58,8 +59,8 @@ struct Range {
 };
 
 template <typename Target>
-CLI::Option* add_number(CLI::App& app, const std::string& name, const std::string& type, const std::string& help, Range range,
-                        Target& target, double scale = 1) {
+CLI::Option* add_number(CLI::App& app, const std::string& name, const std::string& type, const std::string& help,
+                        Range range, Target& target, double scale = 1) {
     return add(app, name, type, help, [name, range, scale, &target](const std::string& text) {
         const auto value = number_from_text(text);
         if (!value || !range.contains(*value)) refuse(name, text, range.text());
@@ -68,7 +69,8 @@ CLI::Option* add_number(CLI::App& app, const std::string& name, const std::strin
 }
 
 template <typename Target>
-CLI::Option* add_integer(CLI::App& app, const std::string& name, const std::string& help, long low, long high, Target& target) {
+CLI::Option* add_integer(CLI::App& app, const std::string& name, const std::string& help, long low, long high,
+                         Target& target) {
     return add(app, name, "N", help, [name, low, high, &target](const std::string& text) {
         const auto value = integer_from_text(text);
         if (!value || *value < low || *value > high)
@@ -87,8 +89,8 @@ struct Choices {
     }
 };
 template <typename Value, std::size_t N, typename Target>
-CLI::Option* add_choice(CLI::App& app, const std::string& name, const std::string& help, const Choices<Value, N>& choices,
-                        Target& target) {
+CLI::Option* add_choice(CLI::App& app, const std::string& name, const std::string& help,
+                        const Choices<Value, N>& choices, Target& target) {
     return add(app, name, "NAME", fmt::format("{}: {}", help, choices.text()),
                [name, choices, &target](const std::string& text) {
                    for (const auto& [known, value] : choices.list)
@@ -100,7 +102,8 @@ CLI::Option* add_choice(CLI::App& app, const std::string& name, const std::strin
                });
 }
 
-void add_path(CLI::App& app, const std::string& name, const std::string& help, std::filesystem::path& target, bool required) {
+void add_path(CLI::App& app, const std::string& name, const std::string& help, std::filesystem::path& target,
+              bool required) {
     add(app, name, "FILE", help, [name, &target](const std::string& text) {
         if (text.empty()) refuse(name, text, "a file name is needed");
         target = text;
@@ -111,27 +114,30 @@ void add_path(CLI::App& app, const std::string& name, const std::string& help, s
 constexpr SolverKind automatic_solver = SolverKind::gathering;
 
 void add_solver(CLI::App& app, SolveOverrides& solve) {
-    add_choice(app, "--solver", "How the light is solved, auto is gathering; else as the scene says",
-               Choices<SolverKind, 3>{{{{"gathering", SolverKind::gathering},
-                                        {"shooting", SolverKind::shooting},
-                                        {"auto", automatic_solver}}}},
-               solve.solver);
+    add_choice(
+        app, "--solver", "How the light is solved, auto is gathering; else as the scene says",
+        Choices<SolverKind, 3>{
+            {{{"gathering", SolverKind::gathering}, {"shooting", SolverKind::shooting}, {"auto", automatic_solver}}}},
+        solve.solver);
 }
 
 void add_solve_options(CLI::App& app, SolveOverrides& solve, int& threads) {
     add(app, "--wavelengths", "RULE",
-        "Channels of the light: uniform:N (N wavelengths from 400 to 700 nm, 4 to 31) or rgb (three channels, for comparison); "
+        "Channels of the light: uniform:N (N wavelengths from 400 to 700 nm, 4 to 31) or rgb (three channels, for "
+        "comparison); "
         "else as the scene says",
         [&solve](const std::string& text) {
             const auto spec = parse_wavelengths(text);
             if (!spec) throw CLI::ValidationError("--wavelengths", spec.error());
             solve.wavelengths = *spec;
         });
-    add_number(app, "--error", "PERCENT", "Estimated relative RMS error of irradiance to reach, in percent; else as the scene says",
+    add_number(app, "--error", "PERCENT",
+               "Estimated relative RMS error of irradiance to reach, in percent; else as the scene says",
                {0, 100, true}, solve.target_error, 0.01);
-    add_integer(app, "--threads", "Threads to use, 1 to 1024; else all (the editor leaves one to its window)", 1, 1024, threads);
-    add_integer(app, "--seed", "Seed of the random sequences, 0 to 4294967295; the same seed gives the same rays", 0, 4294967295L,
-                solve.seed);
+    add_integer(app, "--threads", "Threads to use, 1 to 1024; else all (the editor leaves one to its window)", 1, 1024,
+                threads);
+    add_integer(app, "--seed", "Seed of the random sequences, 0 to 4294967295; the same seed gives the same rays", 0,
+                4294967295L, solve.seed);
 }
 
 void add_scene(CLI::App& app, BatchParams& batch) {
@@ -140,16 +146,18 @@ void add_scene(CLI::App& app, BatchParams& batch) {
 
 void add_batch_options(CLI::App& app, BatchParams& batch) {
     add_solve_options(app, batch.solve, batch.threads);
-    add_number(app, "--time", "SECONDS", "Stop solving after so many seconds, but not before there is a first solution", {0, 1e6, true},
-               batch.time_limit);
-    add_path(app, "--report", "Write stage times, rays, rows, elements, sweeps, estimated error and peak memory as JSON", batch.report,
+    add_number(app, "--time", "SECONDS", "Stop solving after so many seconds, but not before there is a first solution",
+               {0, 1e6, true}, batch.time_limit);
+    add_path(app, "--report",
+             "Write stage times, rays, rows, elements, sweeps, estimated error and peak memory as JSON", batch.report,
              false);
 }
 
 void add_render_options(CLI::App& app, RenderCommand& render) {
     add_scene(app, render.batch);
-    add_path(app, "-o,--output", "The picture: .png, .jpg or .tif as displayed, .exr or .hdr as linear sRGB radiance in cd/m2", render.output,
-             true);
+    add_path(app, "-o,--output",
+             "The picture: .png, .jpg or .tif as displayed, .exr or .hdr as linear sRGB radiance in cd/m2",
+             render.output, true);
     add(app, "--size", "WxH", "Pixels, each side 1 to 16384 (1280x800)", [&render](const std::string& text) {
         const auto cross = text.find('x');
         const auto width = integer_from_text(std::string_view(text).substr(0, cross));
@@ -166,7 +174,8 @@ void add_render_options(CLI::App& app, RenderCommand& render) {
                                              {"illuminance", PictureQuantity::illuminance}}}},
                render.quantity);
     add(app, "--max-display", "X|auto",
-        "Luminance in cd/m2 (illuminance in lx with --quantity illuminance) shown as full white, or auto from the picture; else as the scene says",
+        "Luminance in cd/m2 (illuminance in lx with --quantity illuminance) shown as full white, or auto from the "
+        "picture; else as the scene says",
         [&render](const std::string& text) {
             if (text == "auto") {
                 render.max_display_auto = true;
@@ -177,13 +186,16 @@ void add_render_options(CLI::App& app, RenderCommand& render) {
             render.max_display = *value;
         });
     std::array<std::pair<const char*, ClipRule>, 4> rules{{{"clamp", ClipRule::clamp},
-                                                          {"keep_chromaticity", ClipRule::keep_chromaticity},
-                                                          {"desaturate", ClipRule::desaturate},
-                                                          {"scale_all", ClipRule::scale_all}}};
-    add_choice(app, "--clip", "What becomes of colours that the display cannot show", Choices<ClipRule, 4>{rules}, render.clip);
+                                                           {"keep_chromaticity", ClipRule::keep_chromaticity},
+                                                           {"desaturate", ClipRule::desaturate},
+                                                           {"scale_all", ClipRule::scale_all}}};
+    add_choice(app, "--clip", "What becomes of colours that the display cannot show", Choices<ClipRule, 4>{rules},
+               render.clip);
     add_choice(app, "--curve", "From light to pixel value",
-               Choices<TransferCurve, 2>{{{{"gamma", TransferCurve::gamma}, {"srgb", TransferCurve::srgb}}}}, render.curve);
-    add_number(app, "--gamma", "G", "Exponent of the gamma curve, 0.1 to 10; takes --curve gamma", {0.1, 10}, render.gamma);
+               Choices<TransferCurve, 2>{{{{"gamma", TransferCurve::gamma}, {"srgb", TransferCurve::srgb}}}},
+               render.curve);
+    add_number(app, "--gamma", "G", "Exponent of the gamma curve, 0.1 to 10; takes --curve gamma", {0.1, 10},
+               render.gamma);
     add_solver(app, render.batch.solve);
     add_batch_options(app, render.batch);
 }
@@ -197,14 +209,19 @@ struct MeasureWords {
 
 void add_measure_options(CLI::App& app, MeasureCommand& measure, MeasureWords& words) {
     add_scene(app, measure.batch);
-    add_path(app, "--points", "CSV with the columns x,y,z,nx,ny,nz in any order; others are kept", measure.points, true);
-    add_path(app, "-o,--output", "The same CSV with the columns illuminance_lx, irradiance_w_m2, standard_error_percent added", measure.output,
+    add_path(app, "--points", "CSV with the columns x,y,z,nx,ny,nz in any order; others are kept", measure.points,
              true);
-    add_choice(app, "--at", "Look from each point anew (the default) or read the field as the window shows it, interpolated",
+    add_path(app, "-o,--output",
+             "The same CSV with the columns illuminance_lx, irradiance_w_m2, standard_error_percent added",
+             measure.output, true);
+    add_choice(app, "--at",
+               "Look from each point anew (the default) or read the field as the window shows it, interpolated",
                Choices<MeasureAt, 2>{{{{"gather", MeasureAt::gather}, {"field", MeasureAt::field}}}}, words.at);
-    add_integer(app, "--rays", "Hemisphere rays (paths with --solver reference) a point, 1 to 100000000 (1024)", 1, 100000000, words.rays);
+    add_integer(app, "--rays", "Hemisphere rays (paths with --solver reference) a point, 1 to 100000000 (1024)", 1,
+                100000000, words.rays);
     add(app, "--solver", "NAME",
-        "How the light is solved: gathering, shooting, auto (gathering), or reference (unbiased paths from each point, no radiosity); "
+        "How the light is solved: gathering, shooting, auto (gathering), or reference (unbiased paths from each point, "
+        "no radiosity); "
         "else as the scene says",
         [&measure, &words](const std::string& text) {
             words.reference = text == "reference";
@@ -224,22 +241,27 @@ void add_measure_options(CLI::App& app, MeasureCommand& measure, MeasureWords& w
 void check_render(const CLI::App& app, const RenderCommand& render) {
     const auto given = [&](const char* name) { return app.count(name) > 0; };
     if (!is_display_image_name(render.output) && !is_radiance_image_name(render.output))
-        refuse("--output", render.output.string(), "a name that ends in .png, .jpg, .jpeg, .tif, .tiff, .exr or .hdr is allowed");
+        refuse("--output", render.output.string(),
+               "a name that ends in .png, .jpg, .jpeg, .tif, .tiff, .exr or .hdr is allowed");
     if (is_radiance_image_name(render.output))
         for (const char* name : {"--gamma", "--max-display", "--clip", "--curve"})
             if (given(name))
-                throw CLI::ValidationError(name, fmt::format("does nothing in {}, which holds radiance; use it with .png, .jpg or .tif",
-                                                             render.output.filename().string()));
+                throw CLI::ValidationError(
+                    name, fmt::format("does nothing in {}, which holds radiance; use it with .png, .jpg or .tif",
+                                      render.output.filename().string()));
     if (render.gamma && render.curve == TransferCurve::srgb)
         throw CLI::ValidationError("--gamma", "does nothing with --curve srgb; use it with --curve gamma or alone");
 }
 
 void check_measure(const CLI::App& app, MeasureCommand& measure, const MeasureWords& words) {
     if (words.reference) {
-        if (words.at) throw CLI::ValidationError("--at", "does nothing with --solver reference, which traces paths from each point");
+        if (words.at)
+            throw CLI::ValidationError("--at",
+                                       "does nothing with --solver reference, which traces paths from each point");
         for (const char* name : {"--error", "--time"})
             if (app.count(name) > 0)
-                throw CLI::ValidationError(name, "does nothing with --solver reference; --rays says how many paths to trace");
+                throw CLI::ValidationError(name,
+                                           "does nothing with --solver reference; --rays says how many paths to trace");
         measure.at = MeasureAt::reference;
     } else if (words.at) {
         measure.at = *words.at;
@@ -258,10 +280,12 @@ Each command has its own --help.
 
 Exit status: 0 done; 1 could not be done; 2 a mistake on the command line or in a file; 130 stopped with Ctrl-C.)";
 
-constexpr const char* render_footer = R"(Without --max-display, --clip, --curve and --gamma the picture is displayed as the scene file says.
+constexpr const char* render_footer =
+    R"(Without --max-display, --clip, --curve and --gamma the picture is displayed as the scene file says.
 PNG, JPEG and TIFF carry the display settings and the state of the solution as metadata; so does EXR the latter.)";
 
-constexpr const char* measure_footer = R"(Points are in metres, in the axes of the scene file (a file whose up axis is z takes points with z up).
+constexpr const char* measure_footer =
+    R"(Points are in metres, in the axes of the scene file (a file whose up axis is z takes points with z up).
 Normals are unit vectors to within 0.001; they say which way the meter looks.
 With --wavelengths rgb the columns irradiance_r, irradiance_g and irradiance_b are added, in the units of the scene's emission.)";
 
@@ -276,14 +300,17 @@ SolveSettings with_overrides(SolveSettings settings, const SolveOverrides& overr
 }
 
 CommandLine parse_command_line(int argc, const char* const* argv) {
-    CLI::App app("Lueur: a live lighting editor. Solves the light of a scene in spectra and shows it while you change it.", "lueur");
+    CLI::App app(
+        "Lueur: a live lighting editor. Solves the light of a scene in spectra and shows it while you change it.",
+        "lueur");
     app.set_version_flag("--version", std::string("lueur ") + LUEUR_VERSION);
     app.set_help_flag("-h,--help", "Print this help and leave");
     app.footer(program_footer);
     app.require_subcommand(0, 1);
 
     EditorCommand editor;
-    add_path(app, "SCENE", "The scene to edit: .toml, .obj, .gltf or .glb; without it the Cornell box", editor.scene, false);
+    add_path(app, "SCENE", "The scene to edit: .toml, .obj, .gltf or .glb; without it the Cornell box", editor.scene,
+             false);
     add_solver(app, editor.solve);
     add_solve_options(app, editor.solve, editor.threads);
 
@@ -306,7 +333,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
             command = &sub->get_name();
             for (const CLI::Option* option : app.get_options())
                 if (option->count() > 0)
-                    throw CLI::ValidationError(option->get_name(), fmt::format("stands before {0}; put it after {0}", *command));
+                    throw CLI::ValidationError(option->get_name(),
+                                               fmt::format("stands before {0}; put it after {0}", *command));
         }
         if (render_app->parsed()) check_render(*render_app, render);
         if (measure_app->parsed()) check_measure(*measure_app, measure, words);

@@ -4,8 +4,9 @@
 //     lueur render SCENE -o IMAGE                     solve and save a picture
 //     lueur measure SCENE --points IN.csv -o OUT.csv  irradiance and illuminance at points
 //
-// Nothing is printed and nothing is opened here; ui/main.cpp visits the variant. Exit status: 0 done, 1 could not be done, 2 bad
-// command line or bad input file (said in full on stderr before anything is written), 130 cancelled by Ctrl-C.
+// Nothing is printed and nothing is opened here; ui/main.cpp visits the variant. Exit status: 0 done, 1 could not be
+// done, 2 bad command line or bad input file (said in full on stderr before anything is written), 130 cancelled by
+// Ctrl-C.
 #pragma once
 
 #include <filesystem>

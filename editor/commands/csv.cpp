@@ -50,7 +50,8 @@ private:
             for (;;) {
                 if (done()) {
                     if (!fault)
-                        fault = CsvFault{"the quote that begins here does not end; close it with \"", result.line, result.column};
+                        fault = CsvFault{"the quote that begins here does not end; close it with \"", result.line,
+                                         result.column};
                     return result;
                 }
                 const char c = advance();
@@ -67,7 +68,8 @@ private:
             if (quoted && !fault)
                 fault = CsvFault{"text after a closing quote; a quote inside quotes is written \"\"", line_, column_};
             if (text_[at_] == '"' && !fault)
-                fault = CsvFault{"a quote inside a field without quotes; quote the whole field and write \"\"", line_, column_};
+                fault = CsvFault{"a quote inside a field without quotes; quote the whole field and write \"\"", line_,
+                                 column_};
             result.text += advance();
         }
         if (!done() && text_[at_] == '\r') advance();

@@ -9,7 +9,7 @@
 namespace lueur {
 
 struct CsvField {
-    std::string text; // without quotes
+    std::string text;                 // without quotes
     std::size_t line = 1, column = 1; // where it begins; column counts characters (UTF-8), both from 1
 };
 
@@ -24,8 +24,8 @@ struct CsvRecord {
     std::optional<CsvFault> fault; // the fields are not to be trusted
 };
 
-// Views into `text`. Empty lines at the end are left out; an empty line elsewhere is a record of one empty field. An unterminated quote
-// takes the rest of the text.
+// Views into `text`. Empty lines at the end are left out; an empty line elsewhere is a record of one empty field. An
+// unterminated quote takes the rest of the text.
 std::vector<CsvRecord> parse_csv(std::string_view text);
 
 } // namespace lueur

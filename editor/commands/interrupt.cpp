@@ -6,7 +6,9 @@ namespace {
 // A signal handler reaches nothing but what has static storage.
 std::atomic<bool> interrupted = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
-void on_interrupt(int) { interrupted = true; }
+void on_interrupt(int) {
+    interrupted = true;
+}
 } // namespace
 
 Interrupt::Interrupt() {
@@ -18,8 +20,12 @@ Interrupt::Interrupt() {
     sigaction(SIGINT, &action, &before_);
 }
 
-Interrupt::~Interrupt() { sigaction(SIGINT, &before_, nullptr); }
+Interrupt::~Interrupt() {
+    sigaction(SIGINT, &before_, nullptr);
+}
 
-const std::atomic<bool>& Interrupt::requested() const { return interrupted; }
+const std::atomic<bool>& Interrupt::requested() const {
+    return interrupted;
+}
 
 } // namespace lueur

@@ -44,17 +44,20 @@ int measure(const MeasureCommand& command, BatchSession& session) {
     });
     if (session.cancel()) return exit_interrupted;
 
-    const auto off = std::ranges::count_if(measured, [](const Irradiance& e) { return !std::isfinite(e.illuminance_lx); });
+    const auto off =
+        std::ranges::count_if(measured, [](const Irradiance& e) { return !std::isfinite(e.illuminance_lx); });
     if (off > 0)
-        session.warning(fmt::format("{} of {} points lie on no lit surface and read nan; use --at gather for points in the air", off,
-                                    measured.size()));
+        session.warning(
+            fmt::format("{} of {} points lie on no lit surface and read nan; use --at gather for points in the air",
+                        off, measured.size()));
     const bool rgb = scene->solve.wavelengths.rule == WavelengthRule::rgb;
     const auto written = write_text(command.output, completed_table(*table, measured, rgb));
     if (!written) return session.failed(written.error());
     session.bar().wipe();
-    const std::string how = command.at == MeasureAt::reference
-                                ? std::string("traced paths")
-                                : fmt::format("solved in {:.2f} s, {}", session.solve_seconds(), error_text(solution.status()));
+    const std::string how =
+        command.at == MeasureAt::reference
+            ? std::string("traced paths")
+            : fmt::format("solved in {:.2f} s, {}", session.solve_seconds(), error_text(solution.status()));
     fmt::print("{}: {} points, {}\n", command.output.string(), measured.size(), how);
     return session.finish(solution);
 }

@@ -27,14 +27,16 @@ std::string_view trimmed(std::string_view text) {
 
 } // namespace
 
-std::expected<MeasureTable, std::vector<std::string>> parse_measure_table(const std::string& text, const std::string& file, UpAxis up) {
+std::expected<MeasureTable, std::vector<std::string>> parse_measure_table(const std::string& text,
+                                                                          const std::string& file, UpAxis up) {
     std::vector<std::string> faults;
     const auto complain = [&](std::size_t line, std::size_t column, const std::string& what) {
         faults.push_back(fmt::format("{}:{}:{}: {}", file, line, column, what));
     };
 
     constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-    const std::string_view whole = std::string_view(text).starts_with(byte_order_mark) ? std::string_view(text).substr(3) : text;
+    const std::string_view whole =
+        std::string_view(text).starts_with(byte_order_mark) ? std::string_view(text).substr(3) : text;
     const auto records = parse_csv(whole);
     if (records.empty()) {
         complain(1, 1, "the file is empty; a header with the columns x,y,z,nx,ny,nz is needed");
@@ -65,7 +67,8 @@ std::expected<MeasureTable, std::vector<std::string>> parse_measure_table(const 
     for (const CsvField& field : header.fields)
         for (const char* name : appended)
             if (trimmed(field.text) == name)
-                complain(field.line, field.column, fmt::format("a column {} is there already; rename it or take it out", name));
+                complain(field.line, field.column,
+                         fmt::format("a column {} is there already; rename it or take it out", name));
     if (!faults.empty()) return std::unexpected(faults);
 
     MeasureTable table;
@@ -82,8 +85,9 @@ std::expected<MeasureTable, std::vector<std::string>> parse_measure_table(const 
         }
         if (record.fields.size() != header.fields.size()) {
             complain(start.line, start.column,
-                     record.raw.empty() ? "an empty line; a row or the end of the file is needed"
-                                        : fmt::format("{} fields; the header has {}", record.fields.size(), header.fields.size()));
+                     record.raw.empty()
+                         ? "an empty line; a row or the end of the file is needed"
+                         : fmt::format("{} fields; the header has {}", record.fields.size(), header.fields.size()));
             continue;
         }
         std::array<double, 6> value{};
@@ -95,7 +99,8 @@ std::expected<MeasureTable, std::vector<std::string>> parse_measure_table(const 
                 value[i] = *number;
             } else {
                 read = false;
-                complain(field.line, field.column, fmt::format("{} is '{}'; a finite number is needed", needed[i], field.text));
+                complain(field.line, field.column,
+                         fmt::format("{} is '{}'; a finite number is needed", needed[i], field.text));
             }
         }
         if (!read) continue;
@@ -103,8 +108,9 @@ std::expected<MeasureTable, std::vector<std::string>> parse_measure_table(const 
         const double length = std::hypot(normal.x, normal.y, normal.z);
         if (!(std::abs(length - 1) <= normal_tolerance)) {
             const CsvField& field = record.fields[column_of[3]];
-            complain(field.line, field.column,
-                     fmt::format("the normal has the length {:.6g}; 1 to within {} is allowed", length, normal_tolerance));
+            complain(
+                field.line, field.column,
+                fmt::format("the normal has the length {:.6g}; 1 to within {} is allowed", length, normal_tolerance));
             continue;
         }
         table.rows.emplace_back(record.raw);
@@ -122,7 +128,8 @@ std::string completed_table(const MeasureTable& table, const std::vector<Irradia
     text += table.line_end;
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
         const Irradiance& e = measured[r];
-        text += fmt::format("{},{:.7g},{:.7g},{:.4g}", table.rows[r], e.illuminance_lx, e.irradiance_w_m2, e.standard_error_percent);
+        text += fmt::format("{},{:.7g},{:.7g},{:.4g}", table.rows[r], e.illuminance_lx, e.irradiance_w_m2,
+                            e.standard_error_percent);
         if (rgb)
             for (std::size_t k = 0; k < 3; ++k) text += fmt::format(",{:.7g}", e.channels[k]);
         text += table.line_end;

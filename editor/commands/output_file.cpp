@@ -15,7 +15,8 @@ namespace lueur {
 std::expected<void, std::string> check_writable(const std::filesystem::path& file) {
     namespace fs = std::filesystem;
     const auto fault = [&](const std::string& what) {
-        return std::unexpected(fmt::format("{}: {}; allowed: a file name in an existing folder that may be written to", file.string(), what));
+        return std::unexpected(fmt::format("{}: {}; allowed: a file name in an existing folder that may be written to",
+                                           file.string(), what));
     };
     std::error_code error;
     const auto folder = file.has_parent_path() ? file.parent_path() : fs::path(".");

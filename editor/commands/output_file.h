@@ -7,7 +7,8 @@
 
 namespace lueur {
 
-// The errors are one line, `FILE: what; what is allowed`. A device or a folder is refused: files are renamed into their place.
+// The errors are one line, `FILE: what; what is allowed`. A device or a folder is refused: files are renamed into their
+// place.
 std::expected<void, std::string> check_writable(const std::filesystem::path& file);
 std::expected<void, std::string> write_text(const std::filesystem::path& file, const std::string& text);
 

@@ -11,7 +11,9 @@ namespace lueur {
 ProgressBar::ProgressBar()
     : terminal_(isatty(STDERR_FILENO) == 1) {}
 
-ProgressBar::~ProgressBar() { wipe(); }
+ProgressBar::~ProgressBar() {
+    wipe();
+}
 
 void ProgressBar::show(std::string_view what, double share, std::string_view note) {
     if (!terminal_) return;
@@ -23,7 +25,8 @@ void ProgressBar::show(std::string_view what, double share, std::string_view not
     constexpr int width = 30;
     const double clamped = share > 0 ? std::min(share, 1.0) : 0.0;
     const int full = static_cast<int>(clamped * width);
-    fmt::print(stderr, "\r{:<16} [{:#<{}}{:<{}}] {:3.0f} %  {}\x1b[K", what, "", full, "", width - full, 100 * clamped, note);
+    fmt::print(stderr, "\r{:<16} [{:#<{}}{:<{}}] {:3.0f} %  {}\x1b[K", what, "", full, "", width - full, 100 * clamped,
+               note);
     std::fflush(stderr);
 }
 

@@ -64,7 +64,8 @@ int render(const RenderCommand& command, BatchSession& session) {
 
     std::expected<void, std::string> written;
     session.timed("write", [&] {
-        auto metadata = picture_metadata(*scene, command.batch.scene, scene->camera, solution.status(), command.quantity);
+        auto metadata =
+            picture_metadata(*scene, command.batch.scene, scene->camera, solution.status(), command.quantity);
         if (is_radiance_image_name(command.output)) {
             written = write_radiance_image(command.output, image, metadata);
             return;
@@ -75,8 +76,8 @@ int render(const RenderCommand& command, BatchSession& session) {
     });
     if (!written) return session.failed(written.error());
     session.bar().wipe();
-    fmt::print("{}: {}x{}, solved in {:.2f} s, {}\n", command.output.string(), image.width, image.height, session.solve_seconds(),
-               error_text(solution.status()));
+    fmt::print("{}: {}x{}, solved in {:.2f} s, {}\n", command.output.string(), image.width, image.height,
+               session.solve_seconds(), error_text(solution.status()));
     return session.finish(solution);
 }
 

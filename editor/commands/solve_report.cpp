@@ -10,7 +10,8 @@
 
 namespace lueur {
 
-std::string report_json(const std::string& command, const BatchParams& params, const Solution& solution, const BatchSolveResult& solved,
+std::string report_json(const std::string& command, const BatchParams& params, const Solution& solution,
+                        const BatchSolveResult& solved,
                         const std::vector<std::pair<std::string, double>>& stage_seconds) {
     const SolveStatus& status = solution.status();
     const SolveSettings& settings = solution.scene()->solve;

@@ -32,7 +32,8 @@ TEST(CommandLine, WithoutWordsIsTheEditor) {
 }
 
 TEST(CommandLine, OpensASceneInTheEditor) {
-    const auto editor = parsed<EditorCommand>({"room.toml", "--solver", "shooting", "--wavelengths", "rgb", "--threads", "3", "--seed", "7", "--error", "1.5"});
+    const auto editor = parsed<EditorCommand>({"room.toml", "--solver", "shooting", "--wavelengths", "rgb", "--threads",
+                                               "3", "--seed", "7", "--error", "1.5"});
     EXPECT_EQ(editor.scene, "room.toml");
     EXPECT_EQ(editor.threads, 3);
     const auto solve = with_overrides(SolveSettings{}, editor.solve);
@@ -54,8 +55,10 @@ TEST(CommandLine, OverridesOnlyWhatIsSaid) {
 }
 
 TEST(CommandLine, Render) {
-    const auto render = parsed<RenderCommand>({"render", "room.toml", "-o", "a.png", "--size", "640x480", "--gamma", "1.8", "--max-display", "120", "--clip", "desaturate",
-                                               "--quantity", "luminance", "--time", "2.5", "--report", "r.json", "--solver", "auto"});
+    const auto render =
+        parsed<RenderCommand>({"render", "room.toml",     "-o",       "a.png",  "--size",     "640x480",    "--gamma",
+                               "1.8",    "--max-display", "120",      "--clip", "desaturate", "--quantity", "luminance",
+                               "--time", "2.5",           "--report", "r.json", "--solver",   "auto"});
     EXPECT_EQ(render.batch.scene, "room.toml");
     EXPECT_EQ(render.output, "a.png");
     EXPECT_EQ(render.width, 640);
@@ -69,8 +72,10 @@ TEST(CommandLine, Render) {
     EXPECT_EQ(render.batch.report, "r.json");
     EXPECT_EQ(render.batch.solve.solver, SolverKind::gathering);
     EXPECT_TRUE(parsed<RenderCommand>({"render", "room.toml", "--output", "a.exr"}).batch.report.empty());
-    EXPECT_TRUE(parsed<RenderCommand>({"render", "room.toml", "-o", "a.png", "--max-display", "auto"}).max_display_auto);
-    EXPECT_EQ(parsed<RenderCommand>({"render", "room.toml", "-o", "a.png", "--curve", "gamma", "--gamma", "2"}).curve, TransferCurve::gamma);
+    EXPECT_TRUE(
+        parsed<RenderCommand>({"render", "room.toml", "-o", "a.png", "--max-display", "auto"}).max_display_auto);
+    EXPECT_EQ(parsed<RenderCommand>({"render", "room.toml", "-o", "a.png", "--curve", "gamma", "--gamma", "2"}).curve,
+              TransferCurve::gamma);
 }
 
 TEST(CommandLine, Measure) {
@@ -78,15 +83,18 @@ TEST(CommandLine, Measure) {
     EXPECT_EQ(plain.points, "in.csv");
     EXPECT_EQ(plain.output, "out.csv");
     EXPECT_EQ(plain.at, MeasureAt::gather);
-    EXPECT_EQ(parsed<MeasureCommand>({"measure", "r.toml", "--points", "i.csv", "-o", "o.csv", "--at", "field"}).at, MeasureAt::field);
-    const auto reference = parsed<MeasureCommand>({"measure", "r.toml", "--points", "i.csv", "-o", "o.csv", "--solver", "reference", "--rays", "5000"});
+    EXPECT_EQ(parsed<MeasureCommand>({"measure", "r.toml", "--points", "i.csv", "-o", "o.csv", "--at", "field"}).at,
+              MeasureAt::field);
+    const auto reference = parsed<MeasureCommand>(
+        {"measure", "r.toml", "--points", "i.csv", "-o", "o.csv", "--solver", "reference", "--rays", "5000"});
     EXPECT_EQ(reference.at, MeasureAt::reference);
     EXPECT_EQ(reference.rays, 5000);
     EXPECT_FALSE(reference.batch.solve.solver.has_value());
 }
 
 TEST(CommandLine, HelpAndVersionAreForStdout) {
-    for (const std::vector<const char*>& words : {std::vector<const char*>{"--help"}, {"-h"}, {"render", "--help"}, {"measure", "--help"}, {"--version"}}) {
+    for (const std::vector<const char*>& words :
+         {std::vector<const char*>{"--help"}, {"-h"}, {"render", "--help"}, {"measure", "--help"}, {"--version"}}) {
         const CommandLine line = parse(words);
         ASSERT_TRUE(std::holds_alternative<ExitNow>(line));
         EXPECT_EQ(std::get<ExitNow>(line).code, 0);
@@ -94,8 +102,9 @@ TEST(CommandLine, HelpAndVersionAreForStdout) {
     }
     EXPECT_EQ(std::get<ExitNow>(parse({"--version"})).text, std::string("lueur ") + LUEUR_VERSION + "\n");
     const auto help = std::regex_replace(std::get<ExitNow>(parse({"render", "--help"})).text, std::regex("\\s+"), " ");
-    for (const char* word : {"--output", "--size", "--gamma", "--max-display", "--clip", "--curve", "--quantity", "--solver", "--wavelengths", "--error", "--time",
-                             "--threads", "--seed", "--report", "clamp, keep_chromaticity, desaturate, scale_all", "cd/m2"})
+    for (const char* word : {"--output", "--size", "--gamma", "--max-display", "--clip", "--curve", "--quantity",
+                             "--solver", "--wavelengths", "--error", "--time", "--threads", "--seed", "--report",
+                             "clamp, keep_chromaticity, desaturate, scale_all", "cd/m2"})
         EXPECT_THAT(help, HasSubstr(word));
 }
 
@@ -132,10 +141,14 @@ TEST(CommandLine, MistakesGetOneLineThatSaysWhatIsAllowed) {
         {{"measure", "a.toml", "-o", "o.csv"}, "--points"},
         {{"measure", "a.toml", "--points", "i.csv"}, "--output"},
         {{"measure", "a.toml", "--points", "i.csv", "-o", "o.csv", "--at", "wall"}, "gather, field"},
-        {{"measure", "a.toml", "--points", "i.csv", "-o", "o.csv", "--solver", "jacobi"}, "gathering, shooting, auto, reference"},
-        {{"measure", "a.toml", "--points", "i.csv", "-o", "o.csv", "--at", "field", "--rays", "9"}, "does nothing with --at field"},
-        {{"measure", "a.toml", "--points", "i.csv", "-o", "o.csv", "--solver", "reference", "--at", "field"}, "does nothing with --solver reference"},
-        {{"measure", "a.toml", "--points", "i.csv", "-o", "o.csv", "--solver", "reference", "--error", "1"}, "does nothing with --solver reference"},
+        {{"measure", "a.toml", "--points", "i.csv", "-o", "o.csv", "--solver", "jacobi"},
+         "gathering, shooting, auto, reference"},
+        {{"measure", "a.toml", "--points", "i.csv", "-o", "o.csv", "--at", "field", "--rays", "9"},
+         "does nothing with --at field"},
+        {{"measure", "a.toml", "--points", "i.csv", "-o", "o.csv", "--solver", "reference", "--at", "field"},
+         "does nothing with --solver reference"},
+        {{"measure", "a.toml", "--points", "i.csv", "-o", "o.csv", "--solver", "reference", "--error", "1"},
+         "does nothing with --solver reference"},
     };
     for (const auto& [words, says] : cases) {
         const CommandLine line = parse(words);

@@ -34,8 +34,8 @@ std::size_t files_in(const std::filesystem::path& folder) {
     return count;
 }
 
-// A cube of 2 m (24 m^2): all six walls reflect half and emit 1 W m^-2. Radiosity is B = E / (1 - rho) = 2 W m^-2 everywhere, and what arrives
-// anywhere inside is what the walls send out: 2 W m^-2.
+// A cube of 2 m (24 m^2): all six walls reflect half and emit 1 W m^-2. Radiosity is B = E / (1 - rho) = 2 W m^-2
+// everywhere, and what arrives anywhere inside is what the walls send out: 2 W m^-2.
 constexpr const char* furnace = R"(units = "metre"
 
 [[polygon]]
@@ -212,7 +212,8 @@ TEST_F(Furnace, IsRefusedBeforeTheSolveWhenItCannotBeWritten) {
     EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
 }
 
-// A wall is even: radiance (E + rho H) / pi = 2 / pi W m^-2 sr^-1 in every pixel, so every pixel of the picture is the same.
+// A wall is even: radiance (E + rho H) / pi = 2 / pi W m^-2 sr^-1 in every pixel, so every pixel of the picture is the
+// same.
 TEST_F(Furnace, RendersAnEvenPictureThatSaysHowItWasMade) {
     auto command = render("furnace.png");
     command.max_display = 300;
@@ -252,8 +253,8 @@ TEST_F(Furnace, RendersAnEvenPictureThatSaysHowItWasMade) {
         EXPECT_GE(report.at("stage_seconds").at(stage).get<double>(), 0) << stage;
 }
 
-// The walls send out as much as arrives (B = H), so their luminance is the illuminance / pi: shown with a MAXDISPLAY pi times as high, the
-// illuminance is the same picture.
+// The walls send out as much as arrives (B = H), so their luminance is the illuminance / pi: shown with a MAXDISPLAY pi
+// times as high, the illuminance is the same picture.
 TEST_F(Furnace, IlluminanceIsPiTimesTheLuminance) {
     auto luminance = render("luminance.png"), illuminance = render("illuminance.png");
     luminance.quantity = PictureQuantity::luminance;

@@ -147,17 +147,29 @@ TEST(Document, AnotherSceneBringsItsCameraAndUndoTheOldOne) {
 
 Edit random_edit(std::mt19937& random, const Scene& scene) {
     const auto number = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
-    const auto one_of = [&](std::size_t count) { return std::uniform_int_distribution<std::uint32_t>(0, static_cast<std::uint32_t>(count) - 1)(random); };
+    const auto one_of = [&](std::size_t count) {
+        return std::uniform_int_distribution<std::uint32_t>(0, static_cast<std::uint32_t>(count) - 1)(random);
+    };
     switch (one_of(11)) {
-    case 0: return SetReflectance{MaterialIndex(one_of(scene.materials.size())), number(0, 1)};
-    case 1: return SetReflectance{MaterialIndex(one_of(scene.materials.size())), Rgb(number(0, 1), number(0, 1), number(0, 1))};
-    case 2: return SetTwoSided{MaterialIndex(one_of(scene.materials.size())), one_of(2) == 0};
-    case 3: return GiveOwnMaterial{ObjectIndex(one_of(scene.objects.size()))};
-    case 4: return AssignMaterial{ObjectIndex(one_of(scene.objects.size())), MaterialIndex(one_of(scene.materials.size()))};
-    case 5: return SetDimmer{LuminaireIndex(0), number(0, 2)};
-    case 6: return SetPower{LuminaireIndex(0), one_of(2) ? PowerUnit::watt : PowerUnit::lumen, number(0, 5000)};
-    case 7: return SetEmissionSpectrum{LuminaireIndex(0), Blackbody{number(2000, 9000)}};
-    case 8: return SetEmitSide{LuminaireIndex(0), EmitSide(one_of(3))};
+    case 0:
+        return SetReflectance{MaterialIndex(one_of(scene.materials.size())), number(0, 1)};
+    case 1:
+        return SetReflectance{MaterialIndex(one_of(scene.materials.size())),
+                              Rgb(number(0, 1), number(0, 1), number(0, 1))};
+    case 2:
+        return SetTwoSided{MaterialIndex(one_of(scene.materials.size())), one_of(2) == 0};
+    case 3:
+        return GiveOwnMaterial{ObjectIndex(one_of(scene.objects.size()))};
+    case 4:
+        return AssignMaterial{ObjectIndex(one_of(scene.objects.size())), MaterialIndex(one_of(scene.materials.size()))};
+    case 5:
+        return SetDimmer{LuminaireIndex(0), number(0, 2)};
+    case 6:
+        return SetPower{LuminaireIndex(0), one_of(2) ? PowerUnit::watt : PowerUnit::lumen, number(0, 5000)};
+    case 7:
+        return SetEmissionSpectrum{LuminaireIndex(0), Blackbody{number(2000, 9000)}};
+    case 8:
+        return SetEmitSide{LuminaireIndex(0), EmitSide(one_of(3))};
     case 9: {
         DisplaySettings display = scene.display;
         display.gamma = number(1, 3);
@@ -171,7 +183,8 @@ Edit random_edit(std::mt19937& random, const Scene& scene) {
     }
 }
 
-// Whatever is done, undoing everything gives the first scene, redoing everything the last, and every stop on the way is met again.
+// Whatever is done, undoing everything gives the first scene, redoing everything the last, and every stop on the way is
+// met again.
 TEST(Document, UndoOfAllIsTheFirstSceneAndRedoOfAllTheLast) {
     for (unsigned seed = 1; seed <= 20; ++seed) {
         std::mt19937 random(seed);
@@ -209,7 +222,8 @@ TEST(Document, AFailedOpenKeepsTheScene) {
     Document document(small_scene(), "small.toml");
     document.apply(SetDimmer{LuminaireIndex(0), 0.5});
     const auto before = document.shared_scene();
-    for (const std::filesystem::path& file : {folder.path() / "broken.toml", folder.path() / "empty.toml", folder.path() / "absent.toml", folder.path()}) {
+    for (const std::filesystem::path& file :
+         {folder.path() / "broken.toml", folder.path() / "empty.toml", folder.path() / "absent.toml", folder.path()}) {
         std::vector<std::string> warnings;
         const auto opened = document.open(file, warnings);
         ASSERT_FALSE(opened.has_value()) << file;

@@ -42,7 +42,9 @@ Texture half_texture() {
     texture.image = std::make_shared<const TextureImage>(TextureImage{2, 1, {glm::vec3(0), glm::vec3(1)}});
     return texture;
 }
-Spectrum flat_spectrum(double value) { return {{400, 700}, {value, value}}; }
+Spectrum flat_spectrum(double value) {
+    return {{400, 700}, {value, value}};
+}
 
 // The table of DESIGN: the later the stage, the cheaper the edit.
 TEST(FirstStaleStage, IsTheEarliestThatTheEditTouches) {
@@ -63,14 +65,18 @@ TEST(FirstStaleStage, IsTheEarliestThatTheEditTouches) {
         {SetCamera{camera_with([](Camera& c) { c.position.x += 1; })}, Stage::view},
         {SetDisplay{display_with([](DisplaySettings& d) { d.gamma = 1.8; })}, Stage::display},
         {SetSolve{scene.solve}, Stage::nothing},
-        {SetSolve{settings_with([](SolveSettings& s) { s.wavelengths = {WavelengthRule::rgb, 3}; })}, Stage::reflectance},
+        {SetSolve{settings_with([](SolveSettings& s) {
+             s.wavelengths = {WavelengthRule::rgb, 3};
+         })},
+         Stage::reflectance},
         {SetSolve{settings_with([](SolveSettings& s) { s.solver = SolverKind::shooting; })}, Stage::reflectance},
         {SetSolve{settings_with([](SolveSettings& s) { s.target_error = 0.01; })}, Stage::reflectance},
         {SetSolve{settings_with([](SolveSettings& s) { s.max_rays *= 2; })}, Stage::reflectance},
         {SetSolve{settings_with([](SolveSettings& s) { s.max_rays /= 2; })}, Stage::transport},
         {SetSolve{settings_with([](SolveSettings& s) { s.seed += 1; })}, Stage::transport},
         {SetSolve{settings_with([](SolveSettings& s) { s.element_size = 0.1; })}, Stage::mesh},
-        {SetSolve{settings_with([](SolveSettings& s) { s.element_size = 0.1, s.solver = SolverKind::shooting; })}, Stage::mesh},
+        {SetSolve{settings_with([](SolveSettings& s) { s.element_size = 0.1, s.solver = SolverKind::shooting; })},
+         Stage::mesh},
         {ReplaceScene{small_scene()}, Stage::mesh},
     };
     for (const auto& [edit, stage] : table)
@@ -85,7 +91,8 @@ TEST(ApplyEdit, ChangesWhatItNames) {
     EXPECT_EQ(apply(SetDimmer{LuminaireIndex(0), 0.25}, scene)->luminaires[0].dimmer, 0.25);
     EXPECT_EQ(apply(SetPower{LuminaireIndex(0), PowerUnit::watt, 40}, scene)->luminaires[0].unit, PowerUnit::watt);
     EXPECT_EQ(apply(SetPower{LuminaireIndex(0), PowerUnit::watt, 40}, scene)->luminaires[0].power, 40);
-    EXPECT_EQ(apply(SetEmissionSpectrum{LuminaireIndex(0), Blackbody{3000}}, scene)->luminaires[0].spectrum, EmissionSpectrum(Blackbody{3000}));
+    EXPECT_EQ(apply(SetEmissionSpectrum{LuminaireIndex(0), Blackbody{3000}}, scene)->luminaires[0].spectrum,
+              EmissionSpectrum(Blackbody{3000}));
     EXPECT_EQ(apply(SetEmitSide{LuminaireIndex(0), EmitSide::both}, scene)->luminaires[0].side, EmitSide::both);
     EXPECT_EQ(apply(SetSolve{settings_with([](SolveSettings& s) { s.seed = 9; })}, scene)->solve.seed, 9u);
 }
@@ -95,7 +102,11 @@ TEST(ApplyEdit, ChangesNothingElse) {
     Scene after = *apply(SetDimmer{LuminaireIndex(0), 0.25}, scene);
     after.luminaires[0].dimmer = scene.luminaires[0].dimmer;
     EXPECT_EQ(after, scene);
-    EXPECT_EQ(scene, [&] { Scene same = small_scene(); same.geometry = scene.geometry; return same; }());
+    EXPECT_EQ(scene, [&] {
+        Scene same = small_scene();
+        same.geometry = scene.geometry;
+        return same;
+    }());
 }
 
 TEST(ApplyEdit, RefusesWhatIsNotThereOrNotAllowed) {
@@ -178,13 +189,15 @@ TEST(SetTexture, BringsItsMeanAndPaintCoversIt) {
     EXPECT_EQ(bare.materials[1].reflectance, Reflectance(Rgb(0.25)));
 }
 
-// The mean is over the triangles that use the picture. One wall sees its black half only, the other its white half: with both the mean
-// is 0.5, and each alone has its own.
+// The mean is over the triangles that use the picture. One wall sees its black half only, the other its white half:
+// with both the mean is 0.5, and each alone has its own.
 TEST(SetTexture, MeanFollowsTheObjectsThatUseIt) {
     Scene scene = small_scene();
     Geometry geometry = *scene.geometry;
-    for (std::size_t i = 3; i < 6; ++i) geometry.vertices[i].uv = {0.1f + 0.1f * static_cast<float>(i - 3), 0.5f + 0.1f * static_cast<float>(i % 2)};
-    for (std::size_t i = 6; i < 9; ++i) geometry.vertices[i].uv = {0.6f + 0.1f * static_cast<float>(i - 6), 0.5f + 0.1f * static_cast<float>(i % 2)};
+    for (std::size_t i = 3; i < 6; ++i)
+        geometry.vertices[i].uv = {0.1f + 0.1f * static_cast<float>(i - 3), 0.5f + 0.1f * static_cast<float>(i % 2)};
+    for (std::size_t i = 6; i < 9; ++i)
+        geometry.vertices[i].uv = {0.6f + 0.1f * static_cast<float>(i - 6), 0.5f + 0.1f * static_cast<float>(i % 2)};
     scene.geometry = std::make_shared<const Geometry>(std::move(geometry));
     scene = *apply(SetTexture{MaterialIndex(1), half_texture()}, scene);
     EXPECT_NEAR(std::get<Rgb>(scene.materials[1].reflectance).g, 0.5, 0.02);
@@ -211,9 +224,12 @@ TEST(SameTarget, HoldsForASliderAndForNothingElse) {
     EXPECT_TRUE(same_target(SetReflectance{MaterialIndex(0), 0.1}, SetReflectance{MaterialIndex(0), 0.2}));
     EXPECT_FALSE(same_target(SetReflectance{MaterialIndex(0), 0.1}, SetReflectance{MaterialIndex(1), 0.2}));
     EXPECT_FALSE(same_target(SetReflectance{MaterialIndex(0), 0.1}, SetReflectance{MaterialIndex(0), Rgb(0.2)}));
-    EXPECT_FALSE(same_target(SetPower{LuminaireIndex(0), PowerUnit::watt, 1}, SetPower{LuminaireIndex(0), PowerUnit::lumen, 1}));
-    EXPECT_TRUE(same_target(SetEmissionSpectrum{LuminaireIndex(0), Blackbody{2000}}, SetEmissionSpectrum{LuminaireIndex(0), Blackbody{2100}}));
-    EXPECT_FALSE(same_target(SetEmissionSpectrum{LuminaireIndex(0), Blackbody{2000}}, SetEmissionSpectrum{LuminaireIndex(0), Flat{}}));
+    EXPECT_FALSE(
+        same_target(SetPower{LuminaireIndex(0), PowerUnit::watt, 1}, SetPower{LuminaireIndex(0), PowerUnit::lumen, 1}));
+    EXPECT_TRUE(same_target(SetEmissionSpectrum{LuminaireIndex(0), Blackbody{2000}},
+                            SetEmissionSpectrum{LuminaireIndex(0), Blackbody{2100}}));
+    EXPECT_FALSE(same_target(SetEmissionSpectrum{LuminaireIndex(0), Blackbody{2000}},
+                             SetEmissionSpectrum{LuminaireIndex(0), Flat{}}));
     EXPECT_FALSE(same_target(SetTwoSided{MaterialIndex(0), true}, SetTwoSided{MaterialIndex(0), false}));
     EXPECT_FALSE(same_target(SetDimmer{LuminaireIndex(0), 0.1}, SetReflectance{MaterialIndex(0), 0.1}));
 }

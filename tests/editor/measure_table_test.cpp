@@ -50,9 +50,12 @@ TEST(MeasureTable, MakesNormalsUnitWithinAThousandth) {
     const auto table = parsed(header + "0,0,0,0,0.9995,0\n0,0,0,0.5774,0.5774,0.5773\n");
     EXPECT_DOUBLE_EQ(glm::length(table.points.at(0).normal), 1);
     EXPECT_DOUBLE_EQ(glm::length(table.points.at(1).normal), 1);
-    EXPECT_THAT(faults_of(header + "0,0,0,0,0.99,0\n"), ElementsAre(StartsWith("p.csv:2:7: the normal has the length 0.99;")));
-    EXPECT_THAT(faults_of(header + "0,0,0,0,0,0\n"), ElementsAre(StartsWith("p.csv:2:7: the normal has the length 0;")));
-    EXPECT_THAT(faults_of(header + "0,0,0,1e300,1e300,0\n"), ElementsAre(StartsWith("p.csv:2:7: the normal has the length")));
+    EXPECT_THAT(faults_of(header + "0,0,0,0,0.99,0\n"),
+                ElementsAre(StartsWith("p.csv:2:7: the normal has the length 0.99;")));
+    EXPECT_THAT(faults_of(header + "0,0,0,0,0,0\n"),
+                ElementsAre(StartsWith("p.csv:2:7: the normal has the length 0;")));
+    EXPECT_THAT(faults_of(header + "0,0,0,1e300,1e300,0\n"),
+                ElementsAre(StartsWith("p.csv:2:7: the normal has the length")));
 }
 
 TEST(MeasureTable, AHeaderAloneIsATableOfNoPoints) {
@@ -83,8 +86,10 @@ TEST(MeasureTable, TellsEveryFaultWithItsPlace) {
         {"x,y,z,nx,ny,nz\n0x10,2,3,0,1,0\n", {"p.csv:2:1: x is '0x10';"}},
         {"x,y,z,nx,ny,nz\n1,2,3,0,1,0\na,b,3,0,1,0\n1,2,3,0,9,0\n",
          {"p.csv:3:1: x is 'a';", "p.csv:3:3: y is 'b';", "p.csv:4:7: the normal has the length 9;"}},
-        {"n,x,y,z,nx,ny,nz\n\xC3\xA9t\xC3\xA9,one,2,3,0,1,0\n", {"p.csv:2:5: x is 'one';"}}, // columns count characters, not bytes
-        {"n,x,y,z,nx,ny,nz\n\"two\nlines\",bad,2,3,0,1,0\n", {"p.csv:3:8: x is 'bad';"}},    // and lines those inside quotes
+        {"n,x,y,z,nx,ny,nz\n\xC3\xA9t\xC3\xA9,one,2,3,0,1,0\n",
+         {"p.csv:2:5: x is 'one';"}}, // columns count characters, not bytes
+        {"n,x,y,z,nx,ny,nz\n\"two\nlines\",bad,2,3,0,1,0\n",
+         {"p.csv:3:8: x is 'bad';"}}, // and lines those inside quotes
         {"n,x,y,z,nx,ny,nz\n\"open,1,2,3,0,1,0\n", {"p.csv:2:1: the quote that begins here does not end;"}},
         {"n,x,y,z,nx,ny,nz\n\"a\"b,1,2,3,0,1,0\n", {"p.csv:2:4: text after a closing quote;"}},
         {"n,x,y,z,nx,ny,nz\na\"b,1,2,3,0,1,0\n", {"p.csv:2:2: a quote inside a field without quotes;"}},
@@ -96,7 +101,9 @@ TEST(MeasureTable, TellsEveryFaultWithItsPlace) {
     }
 }
 
-Irradiance lux(double value) { return {{0.25, 0.5, 0.75}, value, value / 100, 0.5}; }
+Irradiance lux(double value) {
+    return {{0.25, 0.5, 0.75}, value, value / 100, 0.5};
+}
 
 TEST(CompletedTable, KeepsWhatWasThereAndAddsBehind) {
     const auto table = parsed("name,x,y,z,nx,ny,nz\n\"a \"\"desk\"\", left\",1.0,2.00,3,0,1,0\n");
@@ -107,21 +114,23 @@ TEST(CompletedTable, KeepsWhatWasThereAndAddsBehind) {
 
 TEST(CompletedTable, HasTheThreeChannelsWithRgb) {
     const auto table = parsed(header + "1,2,3,0,1,0\n");
-    EXPECT_EQ(completed_table(table, {lux(100)}, true),
-              "x,y,z,nx,ny,nz,illuminance_lx,irradiance_w_m2,standard_error_percent,irradiance_r,irradiance_g,irradiance_b\n"
-              "1,2,3,0,1,0,100,1,0.5,0.25,0.5,0.75\n");
+    EXPECT_EQ(
+        completed_table(table, {lux(100)}, true),
+        "x,y,z,nx,ny,nz,illuminance_lx,irradiance_w_m2,standard_error_percent,irradiance_r,irradiance_g,irradiance_b\n"
+        "1,2,3,0,1,0,100,1,0.5,0.25,0.5,0.75\n");
 }
 
 TEST(CompletedTable, KeepsLineEndsAndTheByteOrderMark) {
     const auto table = parsed("\xEF\xBB\xBFx,y,z,nx,ny,nz\r\n1,2,3,0,1,0\r\n\r\n");
-    EXPECT_EQ(completed_table(table, {lux(100)}, false),
-              "\xEF\xBB\xBFx,y,z,nx,ny,nz,illuminance_lx,irradiance_w_m2,standard_error_percent\r\n1,2,3,0,1,0,100,1,0.5\r\n");
+    EXPECT_EQ(completed_table(table, {lux(100)}, false), "\xEF\xBB\xBFx,y,z,nx,ny,nz,illuminance_lx,irradiance_w_m2,"
+                                                         "standard_error_percent\r\n1,2,3,0,1,0,100,1,0.5\r\n");
 }
 
 TEST(CompletedTable, SaysNanWhereNothingCouldBeRead) {
     const double nan_value = std::numeric_limits<double>::quiet_NaN();
     const auto table = parsed(header + "1,2,3,0,1,0\n");
-    EXPECT_THAT(completed_table(table, {{{}, nan_value, nan_value, nan_value}}, false), HasSubstr("1,2,3,0,1,0,nan,nan,nan\n"));
+    EXPECT_THAT(completed_table(table, {{{}, nan_value, nan_value, nan_value}}, false),
+                HasSubstr("1,2,3,0,1,0,nan,nan,nan\n"));
 }
 
 } // namespace

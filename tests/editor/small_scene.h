@@ -7,13 +7,16 @@
 
 namespace lueur {
 
-// Objects: 0 floor (white), 1 left wall (red), 2 right wall (red), 3 lamp (white). Materials: 0 white, 1 red, 2 cloth (two-sided).
-// Luminaires: 0 lamp, 1000 lm.
+// Objects: 0 floor (white), 1 left wall (red), 2 right wall (red), 3 lamp (white). Materials: 0 white, 1 red, 2 cloth
+// (two-sided). Luminaires: 0 lamp, 1000 lm.
 inline Scene small_scene() {
     Scene scene;
     scene.name = "small";
     scene.materials = {{"white", 0.7, {}, false}, {"red", Rgb(0.6, 0.1, 0.1), {}, false}, {"cloth", 0.3, {}, true}};
-    scene.objects = {{"floor", MaterialIndex(0)}, {"left wall", MaterialIndex(1)}, {"right wall", MaterialIndex(1)}, {"lamp", MaterialIndex(0)}};
+    scene.objects = {{"floor", MaterialIndex(0)},
+                     {"left wall", MaterialIndex(1)},
+                     {"right wall", MaterialIndex(1)},
+                     {"lamp", MaterialIndex(0)}};
     scene.luminaires = {{.name = "lamp", .objects = {ObjectIndex(3)}}};
     Geometry geometry;
     for (unsigned object = 0; object < 4; ++object) {

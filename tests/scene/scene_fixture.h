@@ -53,7 +53,9 @@ protected:
     // A picture of black and white squares, row by row from the top left: exact in every encoding.
     void write_picture(const std::string& name, int width, const std::vector<bool>& white) const {
         DisplayImage image{width, static_cast<int>(white.size()) / width, {}};
-        for (const bool one : white) image.rgb.push_back(one ? std::array<std::uint8_t, 3>{255, 255, 255} : std::array<std::uint8_t, 3>{0, 0, 0});
+        for (const bool one : white)
+            image.rgb.push_back(one ? std::array<std::uint8_t, 3>{255, 255, 255}
+                                    : std::array<std::uint8_t, 3>{0, 0, 0});
         const auto written = write_display_image(folder / name, image, {});
         ASSERT_TRUE(written) << written.error();
     }
@@ -61,13 +63,18 @@ protected:
     std::filesystem::path folder;
 };
 
+inline std::string lines(const std::vector<std::string>& messages) {
+    return fmt::format("{}", fmt::join(messages, "\n"));
+}
+
 inline double surface_area(const Geometry& geometry, ObjectIndex object) {
     double area = 0;
     for (std::size_t i = 0; i < geometry.triangles.size(); ++i) {
         if (geometry.surfaces[at(geometry.triangle_surface[i])].object != object) continue;
         const glm::uvec3& t = geometry.triangles[i];
         area += glm::length(glm::cross(glm::dvec3(geometry.vertices[t.y].position - geometry.vertices[t.x].position),
-                                       glm::dvec3(geometry.vertices[t.z].position - geometry.vertices[t.x].position))) / 2;
+                                       glm::dvec3(geometry.vertices[t.z].position - geometry.vertices[t.x].position))) /
+                2;
     }
     return area;
 }

@@ -10,7 +10,7 @@ using testing::HasSubstr;
 TEST_F(SceneTest, SmallSceneLoads) {
     write("small.toml", small_scene);
     const auto [scene, warnings] = load("small.toml");
-    EXPECT_TRUE(warnings.empty()) << testing::PrintToString(warnings);
+    EXPECT_TRUE(warnings.empty()) << lines(warnings);
     EXPECT_EQ(scene.name, "small");
     EXPECT_EQ(scene.unit, LengthUnit::metre);
     EXPECT_EQ(scene.up, UpAxis::y);
@@ -30,24 +30,25 @@ TEST_F(SceneTest, PolygonsOfOneNameAreOneObject) {
     const Scene scene = load("s.toml").scene;
     ASSERT_EQ(scene.objects.size(), 1u);
     EXPECT_NEAR(surface_area(*scene.geometry, ObjectIndex{0}), 3, 1e-6);
-    const std::string other = "[[polygon]]\nname = \"lamp\"\nmaterial = \"white\"\nvertices = [[0,0,5],[1,0,5],[0,1,5]]\n[[material]]\nname = \"white\"\nreflectance = 0.8\n";
+    const std::string other = "[[polygon]]\nname = \"lamp\"\nmaterial = \"white\"\nvertices = "
+                              "[[0,0,5],[1,0,5],[0,1,5]]\n[[material]]\nname = \"white\"\nreflectance = 0.8\n";
     write("t.toml", text + other);
-    EXPECT_THAT(testing::PrintToString(errors_of("t.toml")), HasSubstr("polygons of one name have one material"));
+    EXPECT_THAT(lines(errors_of("t.toml")), HasSubstr("polygons of one name have one material"));
 }
 
 TEST_F(SceneTest, NoLightIsTold) {
     std::string text = small_scene.substr(0, small_scene.find("[[luminaire]]"));
     write("dark.toml", text);
-    EXPECT_THAT(testing::PrintToString(load("dark.toml").warnings), HasSubstr("dark.toml: nothing emits; the picture will be black"));
+    EXPECT_THAT(lines(load("dark.toml").warnings), HasSubstr("dark.toml: nothing emits; the picture will be black"));
     write("dimmed.toml", small_scene + "dimmer = 0\n");
-    EXPECT_THAT(testing::PrintToString(load("dimmed.toml").warnings), HasSubstr("nothing emits"));
+    EXPECT_THAT(lines(load("dimmed.toml").warnings), HasSubstr("nothing emits"));
 }
 
 TEST_F(SceneTest, AllWhiteIsTold) {
     std::string text = small_scene;
     text.replace(text.find("reflectance = 0.5"), 17, "reflectance = 1");
     write("white.toml", text);
-    EXPECT_THAT(testing::PrintToString(load("white.toml").warnings), HasSubstr("every surface reflects all light"));
+    EXPECT_THAT(lines(load("white.toml").warnings), HasSubstr("every surface reflects all light"));
 }
 
 TEST_F(SceneTest, WithoutACameraTheWholeSceneIsSeen) {
@@ -79,7 +80,10 @@ TEST_F(SceneTest, CheckFindsWhatIsOutOfRange) {
     const std::vector<std::pair<void (*)(Scene&, double), std::vector<double>>> faults{
         {[](Scene& s, double v) { s.materials[0].reflectance = v; }, {-0.1, 1.1, nan}},
         {[](Scene& s, double v) { s.materials[0].reflectance = Rgb(0.5, v, 0.5); }, {-0.1, 1.1, nan}},
-        {[](Scene& s, double v) { s.materials[0].reflectance = SpectrumFile{"x", "", Spectrum{{400, 700}, {0.5, v}}}; }, {-0.1, 1.1, nan}},
+        {[](Scene& s, double v) {
+             s.materials[0].reflectance = SpectrumFile{"x", "", Spectrum{{400, 700}, {0.5, v}}};
+         },
+         {-0.1, 1.1, nan}},
         {[](Scene& s, double v) { s.luminaires[0].power = v; }, {-1, nan, INFINITY}},
         {[](Scene& s, double v) { s.luminaires[0].dimmer = v; }, {-1, nan, INFINITY}},
         {[](Scene& s, double v) { s.luminaires[0].spectrum = Blackbody{v}; }, {0, 999, 1e6, nan}},

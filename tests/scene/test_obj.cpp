@@ -11,9 +11,10 @@ const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 TEST_F(SceneTest, ObjMaterialsGiveReflectanceAndEmission) {
     write("m.mtl", "# paints\nnewmtl red paint\n Kd 0.8 0.1 +0.05\nnewmtl lamp\nKd 0.5\nKe 3 2 1\n");
-    write("m.obj", "mtllib m.mtl\n" + square + "o wall\nusemtl red paint\nf 1 2 3 4\no light\nusemtl lamp\nf 4 3 2 1\n");
+    write("m.obj",
+          "mtllib m.mtl\n" + square + "o wall\nusemtl red paint\nf 1 2 3 4\no light\nusemtl lamp\nf 4 3 2 1\n");
     const auto [scene, warnings] = load("m.obj");
-    EXPECT_TRUE(warnings.empty()) << testing::PrintToString(warnings);
+    EXPECT_TRUE(warnings.empty()) << lines(warnings);
     ASSERT_EQ(scene.objects.size(), 2u);
     EXPECT_EQ(scene.objects[0].name, "wall");
     EXPECT_EQ(scene.materials[0], (Material{"red paint", Rgb(0.8, 0.1, 0.05), {}, true}));
@@ -25,7 +26,7 @@ TEST_F(SceneTest, ObjMaterialsGiveReflectanceAndEmission) {
 
 TEST_F(SceneTest, ObjIndicesFromTheEndAndTextureCoordinatesUpwards) {
     write("m.obj", square + "vt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 2\nf -4/-3/-1 -3/-2/-1 -2/-1/-1\n");
-    const Geometry& geometry = *load("m.obj").scene.geometry;
+    const Geometry geometry = *load("m.obj").scene.geometry;
     ASSERT_EQ(geometry.vertices.size(), 3u);
     EXPECT_EQ(geometry.vertices[0].uv, glm::vec2(0, 1)); // ours counts v downwards
     EXPECT_EQ(geometry.vertices[2].uv, glm::vec2(1, 0));
@@ -59,7 +60,7 @@ TEST_F(SceneTest, ObjWithoutItsMtlOrTextureIsToldAndKeepsItsColour) {
     write("m.mtl", "newmtl a\nKd 0.25 0.5 0.75\nmap_Kd no.png\n");
     write("m.obj", "mtllib m.mtl other.mtl\n" + square + "usemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\n");
     const auto [scene, warnings] = load("m.obj");
-    const std::string all = testing::PrintToString(warnings);
+    const std::string all = lines(warnings);
     EXPECT_THAT(all, HasSubstr("m.obj:1:14: material file \"other.mtl\" is not there"));
     EXPECT_THAT(all, HasSubstr("m.obj:6:1: texture of material \"a\" left out"));
     EXPECT_THAT(all, HasSubstr("m.obj:8:1: material \"b\" is in none"));
@@ -70,7 +71,7 @@ TEST_F(SceneTest, ObjWithoutItsMtlOrTextureIsToldAndKeepsItsColour) {
 
 TEST_F(SceneTest, ObjPolygonsAreCutRight) { // an L: 3 m2, all facing +z
     write("m.obj", "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nf 1 2 3 4 5 6\n");
-    const Geometry& geometry = *load("m.obj").scene.geometry;
+    const Geometry geometry = *load("m.obj").scene.geometry;
     EXPECT_EQ(geometry.triangles.size(), 4u);
     EXPECT_EQ(geometry.surfaces.size(), 1u);
     EXPECT_NEAR(surface_area(geometry, ObjectIndex{0}), 3, 1e-6);
@@ -79,7 +80,8 @@ TEST_F(SceneTest, ObjPolygonsAreCutRight) { // an L: 3 m2, all facing +z
 
 TEST_F(SceneTest, ObjGroupsWithSeveralMaterialsBecomeSeveralObjects) {
     write("m.mtl", "newmtl a\nKd 0.1\nnewmtl b\nKd 0.2\n");
-    write("m.obj", "mtllib m.mtl\n" + square + "g room\nusemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\ng room.a\nusemtl a\nf 1 2 4\n");
+    write("m.obj",
+          "mtllib m.mtl\n" + square + "g room\nusemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\ng room.a\nusemtl a\nf 1 2 4\n");
     const Scene scene = load("m.obj").scene;
     ASSERT_EQ(scene.objects.size(), 3u);
     EXPECT_EQ(scene.objects[0].name, "room.a");
@@ -88,12 +90,14 @@ TEST_F(SceneTest, ObjGroupsWithSeveralMaterialsBecomeSeveralObjects) {
 }
 
 TEST_F(SceneTest, ObjLinesContinueAndCommentsEnd) {
-    write("m.obj", "\xef\xbb\xbf# byte order mark\r\nv 0 0 \\\r\n0\r\nv 1 0 0 # right\r\nv 1 1 0 1.0\r\n\r\nf 1 \\\n2 3");
+    write("m.obj",
+          "\xef\xbb\xbf# byte order mark\r\nv 0 0 \\\r\n0\r\nv 1 0 0 # right\r\nv 1 1 0 1.0\r\n\r\nf 1 \\\n2 3");
     EXPECT_NEAR(surface_area(*load("m.obj").scene.geometry, ObjectIndex{0}), 0.5, 1e-7);
 }
 
 TEST_F(SceneTest, ObjNamesThatAreNotUtf8CanBeSaved) {
-    write("m.obj", square + "o M\xfc" "ller\nf 1 2 3 4\n");
+    write("m.obj", square + "o M\xfc"
+                            "ller\nf 1 2 3 4\n");
     const Scene scene = load("m.obj").scene;
     EXPECT_EQ(scene.objects.at(0).name, "Müller");
     ASSERT_TRUE(save_scene(scene, folder / "m.toml"));
@@ -102,16 +106,16 @@ TEST_F(SceneTest, ObjNamesThatAreNotUtf8CanBeSaved) {
 
 TEST_F(SceneTest, ObjPointsAndLinesAreToldAndLeftOut) {
     write("m.obj", square + "f 1 2 3\nl 1 2\np 4\n");
-    EXPECT_THAT(testing::PrintToString(load("m.obj").warnings), HasSubstr("2 lines and points left out"));
+    EXPECT_THAT(lines(load("m.obj").warnings), HasSubstr("2 lines and points left out"));
     write("cloud.obj", square);
-    EXPECT_THAT(testing::PrintToString(errors_of("cloud.obj")), HasSubstr("cloud.obj: is a point cloud"));
+    EXPECT_THAT(lines(errors_of("cloud.obj")), HasSubstr("cloud.obj: is a point cloud"));
 }
 
 TEST_F(SceneTest, DegenerateFacesAreToldAndNothingLeftIsAnError) {
     write("m.obj", square + "f 1 2 3\nf 1 2 2\nf 1 1 1\n");
-    EXPECT_THAT(testing::PrintToString(load("m.obj").warnings), HasSubstr("object \"m\": 2 degenerate triangles left out"));
+    EXPECT_THAT(lines(load("m.obj").warnings), HasSubstr("object \"m\": 2 degenerate triangles left out"));
     write("none.obj", square + "f 1 2 2\n");
-    EXPECT_THAT(testing::PrintToString(errors_of("none.obj")), HasSubstr("no triangle with an area is left"));
+    EXPECT_THAT(lines(errors_of("none.obj")), HasSubstr("no triangle with an area is left"));
 }
 
 struct BadObj {
@@ -132,15 +136,18 @@ TEST_F(SceneTest, BadObjFilesAreToldWithTheirPlace) {
              {square + "vn 0 0 1\nf 1//1 2//2 3//1\n", "bad.obj:6:8: the face names normal 2"},
              {square + "f 1 2 x\n", "bad.obj:5:7: \"x\" is not a corner"},
              {square + "f 1 2\n", "bad.obj:5:1: a face of 2 corners"},
-             {"mtllib bad.mtl\n" + square + "usemtl a\nf 1 2 3\n", "bad.mtl:2:4: Kd 1.5 is out of range; 0..1 is allowed"},
-             {"mtllib bad.mtl\n" + square + "usemtl a\nf 1 2 3\n", "bad.mtl:4:8: Kd -0.5 is out of range; 0..1 is allowed"},
+             {"mtllib bad.mtl\n" + square + "usemtl a\nf 1 2 3\n",
+              "bad.mtl:2:4: Kd 1.5 is out of range; 0..1 is allowed"},
+             {"mtllib bad.mtl\n" + square + "usemtl a\nf 1 2 3\n",
+              "bad.mtl:4:8: Kd -0.5 is out of range; 0..1 is allowed"},
              {"mtllib bad.mtl\n" + square + "usemtl a\nf 1 2 3\n", "bad.mtl:5:4: Ke -1 is out of range; 0 or more"},
              {"mtllib bad.mtl\n" + square + "usemtl a\nf 1 2 3\n", "bad.mtl:6:4: Kd spectral is not supported"}}) {
         write("bad.mtl", "newmtl a\nKd 1.5 0 0\nnewmtl b\nKd 0.5 -0.5 nan\nKe -1\nKd spectral x.rfl\n");
         write("bad.obj", bad.text);
         bool told = false;
-        for (const std::string& error : errors_of("bad.obj")) told = told || error.find(bad.phrase) != std::string::npos;
-        EXPECT_TRUE(told) << bad.phrase << "\n" << testing::PrintToString(errors_of("bad.obj"));
+        for (const std::string& error : errors_of("bad.obj"))
+            told = told || error.find(bad.phrase) != std::string::npos;
+        EXPECT_TRUE(told) << bad.phrase << "\n" << lines(errors_of("bad.obj"));
     }
 }
 
@@ -156,7 +163,8 @@ TEST_F(SceneTest, AMillionWrongLinesAreCutShort) {
 // What a scene file says of imported things goes before what they say themselves.
 TEST_F(SceneTest, TheSceneFileOverridesImportedMaterialsAndLuminaires) {
     write("m.mtl", "newmtl a\nKd 0.1\nnewmtl glow\nKd 0.5\nKe 1 1 1\n");
-    write("m.obj", "mtllib m.mtl\n" + square + "o wall\nusemtl a\nf 1 2 3 4\no lamp\nusemtl glow\nf 1 2 3\no spot\nf 1 3 4\n");
+    write("m.obj",
+          "mtllib m.mtl\n" + square + "o wall\nusemtl a\nf 1 2 3 4\no lamp\nusemtl glow\nf 1 2 3\no spot\nf 1 3 4\n");
     write("s.toml", R"(units = "metre"
 [[geometry]]
 file = "m.obj"

@@ -61,7 +61,7 @@ vertical_fov_degrees = 39.3077
 mirrored = true
 
 [display]
-max_display = 1e16
+max_display = 1e11
 auto = false
 locked = false
 clip = "keep_chromaticity"
@@ -84,9 +84,11 @@ protected:
         write("spectra/paint.csv", "wavelength_nm,red,blue\n400,0.1,0.9\n700,0.8,0.1\n");
         write_folder("pictures");
         write_picture("pictures/p.png", 2, {true, false, false, false});
-        write("models/box.mtl", "newmtl grey\nKd 0.2 0.3 0.4\nnewmtl glow\nKd 0.5 0.5 0.5\nKe 1 2 3\nnewmtl hung\nKd 0.5 1 1\nmap_Kd ../pictures/p.png\n");
-        write("models/box.obj", "mtllib box.mtl\nv 0 0 0\nv 100 0 0\nv 100 100 0\nv 0 100 0\nvt 0 0\nvt 1 0\nvt 1 1\n"
-                                "o body\nusemtl grey\nf 1 2 3\nusemtl glow\nf 1 3 4\no canvas\nusemtl hung\nf 1/1 2/2 3/3\n");
+        write("models/box.mtl", "newmtl grey\nKd 0.2 0.3 0.4\nnewmtl glow\nKd 0.5 0.5 0.5\nKe 1 2 3\nnewmtl hung\nKd "
+                                "0.5 1 1\nmap_Kd ../pictures/p.png\n");
+        write("models/box.obj",
+              "mtllib box.mtl\nv 0 0 0\nv 100 0 0\nv 100 100 0\nv 0 100 0\nvt 0 0\nvt 1 0\nvt 1 1\n"
+              "o body\nusemtl grey\nf 1 2 3\nusemtl glow\nf 1 3 4\no canvas\nusemtl hung\nf 1/1 2/2 3/3\n");
     }
     void write_folder(const std::string& name) const { std::filesystem::create_directories(folder / name); }
 
@@ -177,7 +179,8 @@ TEST_F(RoundTrip, AnyCameraInAnyUnitComesBackExactly) {
     Scene scene = load("s.toml").scene;
     std::mt19937_64 random(5);
     std::uniform_real_distribution<double> unit(-10, 10);
-    for (const LengthUnit length : {LengthUnit::metre, LengthUnit::centimetre, LengthUnit::millimetre, LengthUnit::foot, LengthUnit::inch})
+    for (const LengthUnit length :
+         {LengthUnit::metre, LengthUnit::centimetre, LengthUnit::millimetre, LengthUnit::foot, LengthUnit::inch})
         for (const UpAxis up : {UpAxis::y, UpAxis::z})
             for (int round = 0; round < 20; ++round) {
                 scene.unit = length;
@@ -202,11 +205,18 @@ TEST_F(RoundTrip, SavingFailsWithoutAHalfFile) {
 
 // The same room written in metres with Y up, and in millimetres with Z up: file (x, y, z) is world (x, z, -y).
 TEST_F(SceneTest, MillimetresAndZUpEqualTheirTwinInMetresAndYUp) {
-    const char* common = "material = \"m\"\n[[material]]\nname = \"m\"\nreflectance = 0.5\n[[luminaire]]\nname = \"l\"\nobjects = [\"p\"]\npower = { lumen = 1 }\n";
-    write("metre.toml", fmt::format("units = \"metre\"\n[solve]\nelement_size = 0.278\n[camera]\nposition = [0.278, 0.273, -0.8]\ntarget = [0.1, 0.2, 0.3]\n"
-                                    "[[polygon]]\nname = \"p\"\nvertices = [[0.5528, 0, 0], [0, 0, 0], [0, 0.001, 0.5592], [0.5496, 0.3, 0.5592]]\n{}", common));
-    write("mm.toml", fmt::format("units = \"millimetre\"\nup = \"z\"\n[solve]\nelement_size = 278\n[camera]\nposition = [278, 800, 273]\ntarget = [100, -300, 200]\n"
-                                 "[[polygon]]\nname = \"p\"\nvertices = [[552.8, 0, 0], [0, 0, 0], [0, -559.2, 1], [549.6, -559.2, 300]]\n{}", common));
+    const char* common = "material = \"m\"\n[[material]]\nname = \"m\"\nreflectance = 0.5\n[[luminaire]]\nname = "
+                         "\"l\"\nobjects = [\"p\"]\npower = { lumen = 1 }\n";
+    write("metre.toml", fmt::format("units = \"metre\"\n[solve]\nelement_size = 0.278\n[camera]\nposition = [0.278, "
+                                    "0.273, -0.8]\ntarget = [0.1, 0.2, 0.3]\n"
+                                    "[[polygon]]\nname = \"p\"\nvertices = [[0.5528, 0, 0], [0, 0, 0], [0, 0.001, "
+                                    "0.5592], [0.5496, 0.3, 0.5592]]\n{}",
+                                    common));
+    write("mm.toml", fmt::format("units = \"millimetre\"\nup = \"z\"\n[solve]\nelement_size = 278\n[camera]\nposition "
+                                 "= [278, 800, 273]\ntarget = [100, -300, 200]\n"
+                                 "[[polygon]]\nname = \"p\"\nvertices = [[552.8, 0, 0], [0, 0, 0], [0, -559.2, 1], "
+                                 "[549.6, -559.2, 300]]\n{}",
+                                 common));
     const Scene metre = load("metre.toml").scene, millimetre = load("mm.toml").scene;
     EXPECT_EQ(*metre.geometry, *millimetre.geometry); // to the last bit
     EXPECT_EQ(metre.camera, millimetre.camera);

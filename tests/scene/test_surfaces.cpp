@@ -20,7 +20,8 @@ struct Soup : TriangleSoup {
         triangles.emplace_back(base, base + 1, base + 2);
         triangle_object.push_back(ObjectIndex{object});
     }
-    void quad(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d, std::uint32_t object = 0) {
+    void quad(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d,
+              std::uint32_t object = 0) {
         triangle(a, b, c, object);
         triangle(a, c, d, object);
     }
@@ -52,6 +53,7 @@ Soup box(bool smooth = false) {
 
 Soup sphere(int rings, int sectors) {
     const auto point = [&](int i, int j) {
+        if (i == rings) return glm::dvec3(0, -1, 0);
         const double theta = M_PI * i / rings, phi = 2 * M_PI * (j % sectors) / sectors;
         return glm::dvec3(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi));
     };
@@ -68,13 +70,16 @@ TEST(Surfaces, AWallOf200TrianglesWithAWindowIsOne) {
     Soup soup;
     for (int i = 0; i < 12; ++i) // 12 x 10 squares less 4 x 5: 100 squares
         for (int j = 0; j < 10; ++j)
-            if (i < 4 || i >= 8 || j < 2 || j >= 7) soup.quad({i * 0.3, j * 0.3, 1}, {i * 0.3 + 0.3, j * 0.3, 1}, {i * 0.3 + 0.3, j * 0.3 + 0.3, 1}, {i * 0.3, j * 0.3 + 0.3, 1});
+            if (i < 4 || i >= 8 || j < 2 || j >= 7)
+                soup.quad({i * 0.3, j * 0.3, 1}, {i * 0.3 + 0.3, j * 0.3, 1}, {i * 0.3 + 0.3, j * 0.3 + 0.3, 1},
+                          {i * 0.3, j * 0.3 + 0.3, 1});
     ASSERT_EQ(soup.triangles.size(), 200u);
     const Geometry geometry = make(soup);
     ASSERT_EQ(geometry.surfaces.size(), 1u);
     EXPECT_TRUE(geometry.surfaces[0].planar);
     EXPECT_EQ(geometry.triangles.size(), 200u);
-    EXPECT_EQ(geometry.vertices.size(), 13u * 11u - 3u * 4u); // grid points less those inside the window: shared, not one a corner
+    EXPECT_EQ(geometry.vertices.size(),
+              13u * 11u - 3u * 4u); // grid points less those inside the window: shared, not one a corner
 }
 
 TEST(Surfaces, AnLIsOneAndACornerOfTwoWallsIsTwo) {
@@ -119,10 +124,11 @@ TEST(Surfaces, FlatBoxIsSixAndSmoothBoxIsOne) {
     for (const Vertex& vertex : flat.vertices) EXPECT_EQ(vertex.normal, glm::vec3(0));
     const Geometry smooth = make(box(true));
     ASSERT_EQ(smooth.surfaces.size(), 6u); // its normals agree, but at 90 degrees an edge is an edge
-    Soup written = box(); // a file that writes down the flat normals
+    Soup written = box();                  // a file that writes down the flat normals
     for (std::size_t i = 0; i < written.triangles.size(); ++i) {
         const glm::uvec3& t = written.triangles[i];
-        const glm::vec3 n = glm::normalize(glm::cross(written.vertices[t.y].position - written.vertices[t.x].position, written.vertices[t.z].position - written.vertices[t.x].position));
+        const glm::vec3 n = glm::normalize(glm::cross(written.vertices[t.y].position - written.vertices[t.x].position,
+                                                      written.vertices[t.z].position - written.vertices[t.x].position));
         for (int k = 0; k < 3; ++k) written.vertices[t[k]].normal = n;
     }
     const Geometry same = make(written);
@@ -132,7 +138,8 @@ TEST(Surfaces, FlatBoxIsSixAndSmoothBoxIsOne) {
 
 TEST(Surfaces, ASmoothSphereIsOneCurvedSurface) {
     Soup soup = sphere(16, 32);
-    EXPECT_EQ(make(soup).surfaces.size(), 14u * 32u + 2u * 32u); // facets: planar quads between the rings, triangles at the poles
+    EXPECT_EQ(make(soup).surfaces.size(),
+              14u * 32u + 2u * 32u); // facets: planar quads between the rings, triangles at the poles
     soup.with_normals_from(glm::dvec3(0));
     const Geometry geometry = make(soup);
     ASSERT_EQ(geometry.surfaces.size(), 1u);
@@ -146,7 +153,8 @@ TEST(Surfaces, AFinelyCutCylinderDoesNotCreepIntoAPlane) { // 0.1 degrees a step
     const int steps = 3600;
     for (int i = 0; i < steps; ++i) {
         const double a = 2 * M_PI * i / steps, b = 2 * M_PI * (i + 1) / steps;
-        soup.quad({std::cos(a), 0, std::sin(a)}, {std::cos(a), 1, std::sin(a)}, {std::cos(b), 1, std::sin(b)}, {std::cos(b), 0, std::sin(b)});
+        soup.quad({std::cos(a), 0, std::sin(a)}, {std::cos(a), 1, std::sin(a)}, {std::cos(b), 1, std::sin(b)},
+                  {std::cos(b), 0, std::sin(b)});
     }
     EXPECT_GT(make(soup).surfaces.size(), 500u);
 }
@@ -154,9 +162,9 @@ TEST(Surfaces, AFinelyCutCylinderDoesNotCreepIntoAPlane) { // 0.1 degrees a step
 TEST(Surfaces, DegenerateTrianglesAreLeftOutAndTold) {
     Soup soup;
     soup.quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
-    soup.triangle({0, 0, 0}, {1, 0, 0}, {1, 0, 0});          // two corners in one
-    soup.triangle({0, 0, 0}, {0.5, 0, 0}, {1, 0, 0});        // on a line
-    soup.triangle({0, 0, 0}, {1, 0, 0}, {0.5, 1e-9, 0});     // thinner than 1e-7
+    soup.triangle({0, 0, 0}, {1, 0, 0}, {1, 0, 0});      // two corners in one
+    soup.triangle({0, 0, 0}, {0.5, 0, 0}, {1, 0, 0});    // on a line
+    soup.triangle({0, 0, 0}, {1, 0, 0}, {0.5, 1e-9, 0}); // thinner than 1e-7
     soup.triangle({0, 0, 0}, {1, 0, 0}, {0.5, NAN, 0});
     soup.triangle({0, 0, 0}, {1, 0, 0}, {0.5, INFINITY, 0});
     std::vector<std::string> warnings;
@@ -179,7 +187,8 @@ TEST(Surfaces, TheOrderOfTrianglesDoesNotMatter) { // the same sets of triangles
     soup.with_normals_from(glm::dvec3(0));
     const Soup cube = box();
     for (const glm::uvec3& t : cube.triangles)
-        soup.triangle(glm::dvec3(cube.vertices[t.x].position) + 5.0, glm::dvec3(cube.vertices[t.y].position) + 5.0, glm::dvec3(cube.vertices[t.z].position) + 5.0);
+        soup.triangle(glm::dvec3(cube.vertices[t.x].position) + 5.0, glm::dvec3(cube.vertices[t.y].position) + 5.0,
+                      glm::dvec3(cube.vertices[t.z].position) + 5.0);
     std::vector<std::size_t> order(soup.triangles.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     const auto partition = [&] {
@@ -207,7 +216,8 @@ TEST(Surfaces, AnyPlaneInSpace) {
     std::normal_distribution<double> normal;
     for (int round = 0; round < 20; ++round) {
         const glm::dvec3 n = glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
-        const glm::dvec3 u = glm::normalize(glm::cross(n, glm::dvec3(0.2, 0.9, 0.4))), v = glm::cross(n, u), origin = 4.0 * glm::dvec3(normal(random), normal(random), normal(random));
+        const glm::dvec3 u = glm::normalize(glm::cross(n, glm::dvec3(0.2, 0.9, 0.4))), v = glm::cross(n, u),
+                         origin = 4.0 * glm::dvec3(normal(random), normal(random), normal(random));
         Soup soup;
         const auto point = [&](int i, int j) { return origin + u * (i * 0.1) + v * (j * 0.1); };
         for (int i = 0; i < 20; ++i)

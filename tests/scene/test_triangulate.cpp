@@ -10,7 +10,9 @@ namespace {
 
 using Polygon = std::vector<glm::dvec3>;
 
-glm::dvec3 doubled(const Polygon& p, const glm::uvec3& t) { return glm::cross(p[t.y] - p[t.x], p[t.z] - p[t.x]); }
+glm::dvec3 doubled(const Polygon& p, const glm::uvec3& t) {
+    return glm::cross(p[t.y] - p[t.x], p[t.z] - p[t.x]);
+}
 
 // The triangles of a planar polygon all turn as it does, and their areas add up to its own.
 void expect_covers(const Polygon& polygon, const glm::dvec3& normal, double area) {
@@ -25,10 +27,11 @@ void expect_covers(const Polygon& polygon, const glm::dvec3& normal, double area
 }
 
 TEST(Triangulate, ConcaveShapes) {
-    expect_covers({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}}, {0, 0, 1}, 3);        // an L
-    expect_covers({{0, 0, 0}, {4, 0, 0}, {1, 1, 0}, {0, 4, 0}}, {0, 0, 1}, 4);                             // an arrow head: only one diagonal is inside
+    expect_covers({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}}, {0, 0, 1}, 3); // an L
+    expect_covers({{0, 0, 0}, {4, 0, 0}, {1, 1, 0}, {0, 4, 0}}, {0, 0, 1},
+                  4); // an arrow head: only one diagonal is inside
     expect_covers({{4, 0, 0}, {1, 1, 0}, {0, 4, 0}, {0, 0, 0}}, {0, 0, 1}, 4);
-    expect_covers({{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}}, {0, 1, 0}, 1);                             // looks up
+    expect_covers({{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}}, {0, 1, 0}, 1); // looks up
 }
 
 TEST(Triangulate, CornersOnAStraightLineAreKept) {
@@ -38,7 +41,9 @@ TEST(Triangulate, CornersOnAStraightLineAreKept) {
 }
 
 TEST(Triangulate, AHoleJoinedByADoubledEdge) { // a wall of 4 x 3 with a window of 2 x 1
-    expect_covers({{0, 0, 0}, {4, 0, 0}, {4, 3, 0}, {0, 3, 0}, {0, 0, 0}, {1, 1, 0}, {1, 2, 0}, {3, 2, 0}, {3, 1, 0}, {1, 1, 0}}, {0, 0, 1}, 10);
+    expect_covers(
+        {{0, 0, 0}, {4, 0, 0}, {4, 3, 0}, {0, 3, 0}, {0, 0, 0}, {1, 1, 0}, {1, 2, 0}, {3, 2, 0}, {3, 1, 0}, {1, 1, 0}},
+        {0, 0, 1}, 10);
 }
 
 TEST(Triangulate, RandomStars) { // star-shaped polygons of up to 60 corners, turned any way in space
@@ -46,7 +51,8 @@ TEST(Triangulate, RandomStars) { // star-shaped polygons of up to 60 corners, tu
     std::uniform_real_distribution<double> unit(0, 1);
     for (int round = 0; round < 200; ++round) {
         const int corners = 5 + static_cast<int>(random() % 56);
-        const glm::dvec3 normal = glm::normalize(glm::dvec3(unit(random) - 0.5, unit(random) - 0.5, unit(random) - 0.49));
+        const glm::dvec3 normal =
+            glm::normalize(glm::dvec3(unit(random) - 0.5, unit(random) - 0.5, unit(random) - 0.49));
         const glm::dvec3 u = glm::normalize(glm::cross(normal, glm::dvec3(0.3, 0.5, 0.7))), v = glm::cross(normal, u);
         Polygon polygon;
         std::vector<glm::dvec2> flat;
@@ -64,7 +70,8 @@ TEST(Triangulate, RandomStars) { // star-shaped polygons of up to 60 corners, tu
     }
 }
 
-// The measured red wall of the Cornell box, in mm (Cornell University Program of Computer Graphics, "Cornell Box Data").
+// The measured red wall of the Cornell box, in mm (Cornell University Program of Computer Graphics, "Cornell Box
+// Data").
 TEST(Triangulate, AQuadThatIsNotPlanarBecomesTwoTriangles) {
     const Polygon wall{{552.8, 0, 0}, {549.6, 0, 559.2}, {556, 548.8, 559.2}, {556, 548.8, 0}};
     const auto triangles = triangulate(wall);
@@ -77,7 +84,8 @@ TEST(Triangulate, RefusesWhatHasNoInside) {
     EXPECT_FALSE(triangulate(Polygon{{0, 0, 0}, {1, 0, 0}}));
     EXPECT_FALSE(triangulate(Polygon{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}));
     EXPECT_FALSE(triangulate(Polygon{{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {0, 0, 0}}));
-    EXPECT_FALSE(triangulate(Polygon{{0, 0, 0}, {3, 0, 0}, {3, 1, 0}, {1, 1, 0}, {1, -1, 0}, {0, -1, 0}})); // crosses its first edge
+    EXPECT_FALSE(triangulate(
+        Polygon{{0, 0, 0}, {3, 0, 0}, {3, 1, 0}, {1, 1, 0}, {1, -1, 0}, {0, -1, 0}})); // crosses its first edge
 }
 
 } // namespace

@@ -1,0 +1,270 @@
+// The window's shaders against core/display: the same radiance and settings give the same bytes, within one step of 255.
+#include "ui/renderer.h"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "core/spectrum/colour.h"
+#include "core/view/picture.h"
+#include "tests/e2e/virtual_screen.h"
+#include "ui/theme.h"
+#include "ui/window.h"
+
+namespace lueur {
+namespace {
+
+constexpr int side = 24;    // patches along an edge
+constexpr int pixels = 384; // of the picture along an edge: 16 to a patch at the least
+
+// One screen and one hidden window for all tests of the program.
+class ShaderTest : public testing::Test {
+protected:
+    static void SetUpTestSuite() {
+        screen_ = std::make_unique<test::VirtualScreen>(640, 480);
+        WindowParams params;
+        params.visible = false;
+        auto window = Window::open(params);
+        if (!window) GTEST_FAIL() << window.error();
+        window_ = std::move(*window);
+        auto renderer = Renderer::make();
+        if (!renderer) GTEST_FAIL() << renderer.error();
+        renderer_ = std::move(*renderer);
+    }
+    static void TearDownTestSuite() {
+        renderer_.reset();
+        window_.reset();
+        screen_.reset();
+    }
+    static std::unique_ptr<test::VirtualScreen> screen_;
+    static std::unique_ptr<Window> window_;
+    static std::unique_ptr<Renderer> renderer_;
+};
+std::unique_ptr<test::VirtualScreen> ShaderTest::screen_;
+std::unique_ptr<Window> ShaderTest::window_;
+std::unique_ptr<Renderer> ShaderTest::renderer_;
+
+// Square patches in the plane z = 0, facing +z, each of one radiance. One object a patch.
+struct Chart {
+    Snapshot snapshot;
+    std::vector<glm::dvec3> centres;
+    std::vector<glm::vec3> xyz;
+};
+
+Chart make_chart(const std::vector<glm::vec3>& xyz, std::optional<Texture> texture = {}) {
+    auto scene = std::make_shared<Scene>();
+    auto geometry = std::make_shared<Geometry>();
+    auto mesh = std::make_shared<Mesh>();
+    auto field = std::make_shared<Field>();
+    scene->materials.push_back({"paint", 0.5, texture, false});
+    Chart chart;
+    chart.xyz = xyz;
+    for (std::size_t i = 0; i < xyz.size(); ++i) {
+        const auto x = static_cast<float>(i % side), y = static_cast<float>(i / side);
+        const auto first = static_cast<std::uint32_t>(mesh->vertices.size());
+        for (const glm::vec2 corner : {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(1, 1), glm::vec2(0, 1)}) {
+            const glm::vec3 position(x + corner.x, y + corner.y, 0);
+            MeshVertex vertex;
+            vertex.position = position;
+            vertex.normal = {0, 0, 1};
+            vertex.uv = corner;
+            vertex.surface = static_cast<std::uint32_t>(i);
+            mesh->vertices.push_back(vertex);
+            geometry->vertices.push_back({position, {0, 0, 1}, corner});
+            field->irradiance_xyz.emplace_back(0);
+            field->reflected_xyz.push_back(0.25f * xyz[i]);
+            field->emitted_xyz.push_back(texture ? glm::vec3(0) : 0.75f * xyz[i]);
+            field->unshot.push_back(0);
+        }
+        for (const glm::uvec3 triangle : {glm::uvec3(first, first + 1, first + 2), glm::uvec3(first, first + 2, first + 3)}) {
+            mesh->elements.push_back(triangle);
+            mesh->element_surface.push_back(static_cast<std::uint32_t>(i));
+            mesh->element_back.push_back(0);
+            mesh->element_coarse.push_back(static_cast<std::uint32_t>(i));
+            mesh->coarse_patch.push_back(static_cast<std::uint32_t>(i));
+            geometry->triangles.push_back(triangle);
+            geometry->triangle_surface.push_back(SurfaceIndex(i));
+        }
+        geometry->surfaces.push_back({ObjectIndex(i), true});
+        scene->objects.push_back({"patch " + std::to_string(i), MaterialIndex{0}});
+        chart.centres.emplace_back(x + 0.5, y + 0.5, 0);
+    }
+    scene->geometry = geometry;
+    chart.snapshot.scene = scene;
+    chart.snapshot.mesh = mesh;
+    chart.snapshot.field = field;
+    return chart;
+}
+
+Camera front_camera() {
+    Camera camera;
+    camera.target = {0.5 * side, 0.5 * side, 0};
+    camera.position = camera.target + glm::dvec3(0, 0, 1.3 * side);
+    camera.vertical_fov_degrees = 45;
+    return camera;
+}
+
+RenderParams params_for(const Camera& camera, const DisplaySettings& display, int samples) {
+    RenderParams params;
+    params.width = params.height = pixels;
+    params.samples = samples;
+    params.camera = camera;
+    params.display = display;
+    return params;
+}
+
+std::vector<std::array<std::uint8_t, 4>> read_back(GLuint texture) {
+    std::vector<std::array<std::uint8_t, 4>> result(pixels * pixels);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_UNSIGNED_BYTE, result.data());
+    return result;
+}
+
+// The pixel in which a point lies; rows from the bottom, as OpenGL keeps them.
+std::size_t pixel_of(const Camera& camera, const glm::dvec3& point) {
+    const auto clip = clip_from_world(camera, 1, 0.1, 1000) * glm::dvec4(point, 1);
+    const auto x = static_cast<std::size_t>((0.5 + 0.5 * clip.x / clip.w) * pixels);
+    const auto y = static_cast<std::size_t>((0.5 + 0.5 * clip.y / clip.w) * pixels);
+    return y * pixels + x;
+}
+
+// Radiances from the darkest to far over MAXDISPLAY, of all chromaticities, some outside of sRGB.
+std::vector<glm::vec3> random_radiances(std::uint32_t seed, double max_display) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(0, 1);
+    std::vector<glm::vec3> result;
+    for (int i = 0; i < side * side; ++i) {
+        const double size = max_display * std::pow(10.0, 4.5 * unit(random) - 3.5);
+        result.emplace_back(size * glm::dvec3(unit(random), unit(random), unit(random)));
+    }
+    result[0] = {0, 0, 0};
+    return result;
+}
+
+void expect_same(const Chart& chart, const Camera& camera, const DisplaySettings& display,
+                 const std::vector<std::array<std::uint8_t, 4>>& shown) {
+    const auto expected = display_image({side, static_cast<int>(chart.xyz.size()) / side, chart.xyz}, display);
+    for (std::size_t i = 0; i < chart.xyz.size(); ++i)
+        for (std::size_t c = 0; c < 3; ++c) {
+            const int difference = std::abs(shown[pixel_of(camera, chart.centres[i])][c] - expected.rgb[i][c]);
+            ASSERT_LE(difference, 1) << "patch " << i << " component " << c << " XYZ " << chart.xyz[i].x << " " << chart.xyz[i].y
+                                     << " " << chart.xyz[i].z << " clip " << to_string(display.clip);
+        }
+}
+
+TEST_F(ShaderTest, ShowsWhatTheFileWriterWrites) {
+    std::uint32_t seed = 1;
+    for (const double max_display : {0.5, 100.0, 20000.0}) {
+        const auto chart = make_chart(random_radiances(seed++, max_display));
+        renderer_->set_snapshot(chart.snapshot);
+        for (const auto clip : {ClipRule::clamp, ClipRule::keep_chromaticity, ClipRule::desaturate, ClipRule::scale_all})
+            for (const auto curve : {TransferCurve::srgb, TransferCurve::gamma})
+                for (const double gamma : {0.6, 1.0, 2.2, 3.0}) {
+                    if (curve == TransferCurve::srgb && gamma != 2.2) continue;
+                    DisplaySettings display;
+                    display.max_display = max_display;
+                    display.clip = clip;
+                    display.curve = curve;
+                    display.gamma = gamma;
+                    for (const int samples : {1, 4})
+                        expect_same(chart, front_camera(), display,
+                                    read_back(renderer_->draw(params_for(front_camera(), display, samples))));
+                }
+    }
+}
+
+TEST_F(ShaderTest, MirroredCameraShowsTheSameLitSides) {
+    const auto chart = make_chart(random_radiances(11, 100));
+    renderer_->set_snapshot(chart.snapshot);
+    auto camera = front_camera();
+    camera.mirrored = true;
+    const DisplaySettings display;
+    expect_same(chart, camera, display, read_back(renderer_->draw(params_for(camera, display, 1))));
+}
+
+TEST_F(ShaderTest, BacksAreSeenThrough) {
+    const auto chart = make_chart(std::vector<glm::vec3>(side * side, glm::vec3(50)));
+    renderer_->set_snapshot(chart.snapshot);
+    auto camera = front_camera();
+    camera.position.z = -camera.position.z;
+    const auto shown = read_back(renderer_->draw(params_for(camera, {}, 1)));
+    const auto backdrop = static_cast<int>(std::lround(255 * colours::backdrop.x));
+    for (const auto& pixel : shown) ASSERT_EQ(pixel[0], backdrop);
+}
+
+TEST_F(ShaderTest, TextureMultipliesWhatIsReflected) {
+    auto image = std::make_shared<TextureImage>();
+    image->width = image->height = 2;
+    image->rgb.assign(4, glm::vec3(0.2f, 0.6f, 0.9f));
+    Texture texture{"plain", image, Rgb(0.4, 0.3, 0.6)};
+    auto radiances = random_radiances(5, 100);
+    for (auto& xyz : radiances) xyz = glm::vec3(xyz_from_rgb(srgb) * glm::dvec3(glm::abs(xyz))); // inside sRGB
+    auto chart = make_chart(radiances, texture);
+    renderer_->set_snapshot(chart.snapshot);
+    for (auto& xyz : chart.xyz) { // rgb * texel / mean, of the reflected quarter
+        const Rgb rgb = rgb_from_xyz(srgb) * (0.25 * glm::dvec3(xyz));
+        xyz = glm::vec3(xyz_from_rgb(srgb) * (rgb * glm::dvec3(0.5, 2.0, 1.5)));
+    }
+    const DisplaySettings display;
+    expect_same(chart, front_camera(), display, read_back(renderer_->draw(params_for(front_camera(), display, 1))));
+}
+
+TEST_F(ShaderTest, AnotherGammaAloneDoesNotDrawTheMeshAgain) {
+    const auto chart = make_chart(random_radiances(3, 100));
+    renderer_->set_snapshot(chart.snapshot);
+    DisplaySettings display;
+    display.curve = TransferCurve::gamma;
+    renderer_->draw(params_for(front_camera(), display, 1));
+    EXPECT_TRUE(renderer_->drew_mesh());
+    display.gamma = 1.7;
+    display.max_display = 140;
+    const auto shown = read_back(renderer_->draw(params_for(front_camera(), display, 1)));
+    EXPECT_FALSE(renderer_->drew_mesh());
+    expect_same(chart, front_camera(), display, shown);
+}
+
+TEST_F(ShaderTest, SelectedObjectIsOutlinedAndKeepsItsColour) {
+    const auto chart = make_chart(std::vector<glm::vec3>(side * side, glm::vec3(20)));
+    renderer_->set_snapshot(chart.snapshot);
+    auto params = params_for(front_camera(), {}, 1);
+    const auto plain = read_back(renderer_->draw(params));
+    const std::size_t middle = side * (side / 2) + side / 2;
+    params.selected = ObjectIndex(middle);
+    const auto outlined = read_back(renderer_->draw(params));
+    EXPECT_EQ(outlined[pixel_of(params.camera, chart.centres[middle])], plain[pixel_of(params.camera, chart.centres[middle])]);
+    std::size_t changed = 0;
+    for (std::size_t i = 0; i < plain.size(); ++i) changed += plain[i] != outlined[i];
+    EXPECT_GT(changed, 40u);
+    EXPECT_LT(changed, 400u) << "an outline of a patch of some 15 pixels, no more";
+}
+
+TEST_F(ShaderTest, ElementsViewDrawsLinesAndUnshotViewItsScale) {
+    auto chart = make_chart(std::vector<glm::vec3>(side * side, glm::vec3(20)));
+    renderer_->set_snapshot(chart.snapshot);
+    auto params = params_for(front_camera(), {}, 1);
+    const auto shaded = read_back(renderer_->draw(params));
+    params.view = ViewMode::elements;
+    const auto lines = read_back(renderer_->draw(params));
+    std::size_t changed = 0;
+    for (std::size_t i = 0; i < shaded.size(); ++i) changed += shaded[i] != lines[i];
+    EXPECT_GT(changed, shaded.size() / 20);
+    EXPECT_LT(changed, shaded.size() / 2);
+
+    auto field = std::make_shared<Field>(*chart.snapshot.field);
+    for (std::size_t v = 0; v < field->unshot.size(); ++v) field->unshot[v] = v / 4 < side * side / 2 ? 100.0f : 1.0f;
+    chart.snapshot.field = field;
+    renderer_->set_snapshot(chart.snapshot);
+    params.view = ViewMode::unshot;
+    params.unshot_top = 100;
+    const auto unshot = read_back(renderer_->draw(params));
+    const auto &bright = unshot[pixel_of(params.camera, chart.centres.front())],
+               &dim = unshot[pixel_of(params.camera, chart.centres.back())];
+    EXPECT_GT(bright[0], 240) << "the top of the scale is yellow";
+    EXPECT_GT(bright[1], 220);
+    EXPECT_LT(dim[0], 140) << "two decades below it is green";
+    EXPECT_GT(dim[1], dim[0]);
+}
+
+} // namespace
+} // namespace lueur

@@ -1,0 +1,166 @@
+// The field and the gathering at points against traced paths, and pictures against the field.
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "core/scene/scene_file.h"
+#include "core/solve/solution_state.h"
+#include "core/view/measure.h"
+#include "core/view/picture.h"
+#include "tests/support/scenes.h"
+
+using namespace lueur;
+
+namespace {
+
+const std::atomic<bool> never{false};
+
+// Random points by area on the lit sides, not inside solids (of whose hemisphere the rays meet black back faces).
+std::vector<MeasurePoint> surface_points(const Solution& solution, int count, std::uint32_t seed) {
+    const Mesh& mesh = solution.state().mesh;
+    std::mt19937 random(seed);
+    std::discrete_distribution<std::uint32_t> element(mesh.coarse_area.begin(), mesh.coarse_area.end());
+    std::uniform_real_distribution<float> unit(0, 1);
+    std::vector<MeasurePoint> points;
+    while (static_cast<int>(points.size()) < count) {
+        const glm::uvec3 v = mesh.nodes[element(random)].vertices;
+        float u = unit(random), w = unit(random);
+        if (u + w > 1) u = 1 - u, w = 1 - w;
+        const glm::vec3 a = mesh.vertices[v.x].position, b = mesh.vertices[v.y].position, c = mesh.vertices[v.z].position;
+        const glm::vec3 p = a + u * (b - a) + w * (c - a), n = glm::normalize(glm::cross(b - a, c - a));
+        if (solution.world()->closest({p + 1e-5f * n, n}).back_face) continue;
+        points.push_back({p, n});
+    }
+    return points;
+}
+
+struct Errors {
+    double rms = 0, median = 0, worst_point = 0;
+    int counted = 0;
+};
+
+// Relative errors of the points brighter than 2 % of the mean.
+Errors relative_errors(const std::vector<Irradiance>& values, const std::vector<Irradiance>& truth) {
+    double mean = 0;
+    for (const Irradiance& t : truth) mean += t.illuminance_lx / double(truth.size());
+    std::vector<double> errors;
+    for (std::size_t i = 0; i < truth.size(); ++i)
+        if (truth[i].illuminance_lx > 0.02 * mean && !std::isnan(values[i].illuminance_lx))
+            errors.push_back(std::abs(values[i].illuminance_lx / truth[i].illuminance_lx - 1));
+    std::sort(errors.begin(), errors.end());
+    Errors result;
+    for (const double e : errors) result.rms += e * e / double(errors.size());
+    result.rms = std::sqrt(result.rms);
+    result.median = errors[errors.size() / 2];
+    result.worst_point = errors.back();
+    result.counted = static_cast<int>(errors.size());
+    return result;
+}
+
+} // namespace
+
+// 1,000 random surface points of the measured Cornell box: 5 % RMS, 1.5 % median, both for what the window shows and for gathering at points.
+TEST(Accuracy, CornellBoxAgainstTracedPaths) {
+    auto loaded = load_scene(std::filesystem::path(LUEUR_SOURCE_DIR) / "assets/cornell.toml");
+    ASSERT_TRUE(loaded) << loaded.error().front();
+    Solution solution(std::make_shared<const Scene>(loaded->scene));
+    test::settle(solution);
+    ASSERT_TRUE(solution.status().settled);
+    const auto points = surface_points(solution, 1000, 1);
+    // 4,096 paths leave about 1 % noise at a point, which counts against us.
+    const auto truth = measure_points(solution, points, {MeasureAt::reference, 4096, 9}, never);
+    const Errors field = relative_errors(measure_points(solution, points, {MeasureAt::field, 0, 1}, never), truth);
+    const Errors gather = relative_errors(measure_points(solution, points, {MeasureAt::gather, 1024, 1}, never), truth);
+    RecordProperty("field_rms_percent", std::to_string(100 * field.rms));
+    printf("Cornell box, %d points: field %.2f %% RMS, %.2f %% median, %.0f %% worst; gathering %.2f %% RMS, %.2f %% median\n",
+           field.counted, 100 * field.rms, 100 * field.median, 100 * field.worst_point, 100 * gather.rms, 100 * gather.median);
+    EXPECT_GT(field.counted, 900);
+    EXPECT_LT(field.rms, 0.05);
+    EXPECT_LT(field.median, 0.015);
+    EXPECT_LT(gather.rms, 0.05);
+    EXPECT_LT(gather.median, 0.015);
+}
+
+// The path tracer itself, where the answer is known: a furnace, 1 / (1 - rho).
+TEST(PathTracer, Furnace) {
+    const Solution solution = test::solved(test::furnace(0.5));
+    const std::vector<MeasurePoint> points{{{0.5, 0, 0.5}, {0, 1, 0}}, {{0.1, 0, 0.05}, {0, 1, 0}}, {{1, 0.3, 0.6}, {-1, 0, 0}}};
+    for (const Irradiance& h : measure_points(solution, points, {MeasureAt::reference, 20000, 1}, never)) {
+        EXPECT_NEAR(h.irradiance_w_m2, 2, 0.04);
+        EXPECT_GT(h.standard_error_percent, 0);
+        EXPECT_NEAR(h.irradiance_w_m2, 2, 4 * 2 * h.standard_error_percent / 100);
+    }
+    for (const Irradiance& h : measure_points(solution, points, {MeasureAt::gather, 256, 1}, never))
+        EXPECT_NEAR(h.irradiance_w_m2, 2, 0.002);
+    for (const Irradiance& h : measure_points(solution, points, {MeasureAt::field, 0, 1}, never))
+        EXPECT_NEAR(h.irradiance_w_m2, 2, 0.002);
+}
+
+TEST(Measure, OffTheSurfaceTheFieldIsNotANumber) {
+    const Solution solution = test::solved(test::furnace(0.5));
+    const auto h = measure_points(solution, std::vector<MeasurePoint>{{{0.5, 0.5, 0.5}, {0, 1, 0}}, {{0.5, 0, 0.5}, {0, -1, 0}}},
+                                  {MeasureAt::field, 0, 1}, never);
+    EXPECT_TRUE(std::isnan(h[0].illuminance_lx));
+    EXPECT_TRUE(std::isnan(h[1].illuminance_lx));
+}
+
+TEST(Measure, CancelledGivesNothing) {
+    const Solution solution = test::solved(test::furnace(0.5));
+    const std::atomic<bool> always{true};
+    EXPECT_TRUE(measure_points(solution, std::vector<MeasurePoint>{{{0.5, 0, 0.5}, {0, 1, 0}}}, {}, always).empty());
+}
+
+TEST(Picture, FurnaceIsOneColour) {
+    const Solution solution = test::solved(test::furnace(0.5));
+    const FieldView view{solution.scene(), solution.mesh(), solution.world(), solution.field()};
+    Camera camera;
+    camera.position = {0.3, 0.4, 0.2};
+    camera.target = {0.9, 0.6, 0.8};
+    const RadianceImage image = render_picture(view, camera, {64, 40, 2}, PictureQuantity::colour, never);
+    ASSERT_EQ(image.xyz.size(), 64u * 40u);
+    // L = B / pi, B = 2 W/m2 of a flat spectrum: 2 * 683 * 106.857 / 400 lm/m2.
+    for (const glm::vec3& xyz : image.xyz) EXPECT_NEAR(xyz.y / (2 * 683 * 106.857 / 400 / M_PI), 1, 2e-3);
+    const RadianceImage lux = render_picture(view, camera, {8, 5, 1}, PictureQuantity::illuminance, never);
+    for (const glm::vec3& xyz : lux.xyz) EXPECT_NEAR(xyz.y / (2 * 683 * 106.857 / 400), 1, 2e-3);
+    const std::atomic<bool> always{true};
+    EXPECT_TRUE(render_picture(view, camera, {64, 40, 2}, PictureQuantity::colour, always).xyz.empty());
+}
+
+// Texel / mean: a checkerboard of 0.2 and 0.6 with mean 0.4 halves and raises what the mean reflects; the solution does not change.
+TEST(Picture, TexturesModulateTheMean) {
+    Scene scene = test::furnace(0.4);
+    auto image = std::make_shared<TextureImage>();
+    image->width = 2, image->height = 1;
+    image->rgb = {glm::vec3(0.2f), glm::vec3(0.6f)};
+    scene.materials[0].texture = Texture{"checker", image, Rgb(0.4)};
+    const Xyz reflected(95, 100, 109);
+    EXPECT_NEAR(textured(scene.materials[0], {0.25f, 0.5f}, reflected).y, 50, 1e-3);
+    EXPECT_NEAR(textured(scene.materials[0], {0.75f, 0.5f}, reflected).y, 150, 1e-3);
+    EXPECT_NEAR(textured(scene.materials[0], {0.5f, 0.5f}, reflected).y, 100, 1e-3);  // between two texels
+    EXPECT_NEAR(textured(scene.materials[0], {-0.25f, 3.5f}, reflected).y, 150, 1e-3); // repeats
+    scene.materials[0].texture->mean = Rgb(0);
+    EXPECT_EQ(textured(scene.materials[0], {0.25f, 0.5f}, reflected).y, 0); // a black mean shows black, not infinity
+}
+
+TEST(CameraRay, AgreesWithTheProjectionMatrix) {
+    Camera camera;
+    camera.position = {1, 2, 3};
+    camera.target = {-2, 1, 7};
+    camera.vertical_fov_degrees = 37;
+    const double aspect = 1.6;
+    const glm::dmat4 clip = clip_from_world(camera, aspect, 0.1, 100);
+    for (const auto& [x, y] : {std::pair{0.5, 0.5}, {0.0, 0.0}, {0.9, 0.2}, {1.0, 1.0}}) {
+        const Ray ray = camera_ray(camera, aspect, x, y);
+        const glm::dvec4 p = clip * glm::dvec4(glm::dvec3(ray.origin) + 5.0 * glm::dvec3(ray.direction), 1);
+        EXPECT_NEAR(p.x / p.w, 2 * x - 1, 1e-5);
+        EXPECT_NEAR(p.y / p.w, 1 - 2 * y, 1e-5);
+        EXPECT_LT(std::abs(p.z / p.w), 1);
+    }
+    camera.target = camera.position + glm::dvec3(0, -5, 0); // straight down
+    const Ray down = camera_ray(camera, aspect, 0.5, 0.5);
+    EXPECT_NEAR(down.direction.y, -1, 1e-6);
+    camera.target = camera.position; // nowhere: still a direction
+    EXPECT_NEAR(glm::length(camera_ray(camera, aspect, 0.5, 0.5).direction), 1, 1e-6);
+}
