@@ -49,6 +49,18 @@ bool same_mesh_pass(const RenderParams& a, const RenderParams& b) {
            a.selected == b.selected && a.highlight_shooting == b.highlight_shooting && a.line_width == b.line_width;
 }
 
+// Variants of the mesh shaders: each a set of these.
+enum Variant : unsigned { with_texture = 1, with_lines = 2, with_highlight = 4, of_unshot = 8 };
+
+std::string defines_of(unsigned variant) {
+    std::string text;
+    if (variant & with_texture) text += "#define TEXTURED\n";
+    if (variant & with_lines) text += "#define LINES\n";
+    if (variant & with_highlight) text += "#define HIGHLIGHT\n";
+    if (variant & of_unshot) text += "#define UNSHOT\n";
+    return text;
+}
+
 double seconds_now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
@@ -57,15 +69,19 @@ double seconds_now() {
 
 std::expected<std::unique_ptr<Renderer>, std::string> Renderer::make() {
     std::unique_ptr<Renderer> renderer(new Renderer);
-    const auto build = [](GlProgram& program, const char* defines, const char* vertex, const char* geometry,
+    const auto build = [](GlProgram& program, const std::string& defines, const char* vertex, const char* geometry,
                           const char* fragment) -> std::string {
         auto made = make_program(defines, vertex, geometry, fragment);
         if (!made) return made.error();
         program = std::move(*made);
         return {};
     };
-    std::string complaint = build(renderer->surfaces_, "", mesh_vertex_shader, "", mesh_fragment_shader);
-    complaint += build(renderer->lines_, "#define LINES\n", mesh_vertex_shader, mesh_geometry_shader, mesh_fragment_shader);
+    std::string complaint;
+    for (unsigned variant = 0; variant <= (of_unshot | with_highlight); ++variant) {
+        if ((variant & of_unshot) && (variant & (with_texture | with_lines))) continue; // neither is shown with unshot light
+        complaint += build(renderer->mesh_programs_[variant], defines_of(variant), mesh_vertex_shader,
+                           variant & with_lines ? mesh_geometry_shader : "", mesh_fragment_shader);
+    }
     complaint += build(renderer->display_one_, "#define SAMPLES 1\n", screen_vertex_shader, "", display_fragment_shader);
     complaint += build(renderer->display_many_, "#define SAMPLES 4\n", screen_vertex_shader, "", display_fragment_shader);
     if (!complaint.empty()) return std::unexpected("a shader does not compile: " + complaint);
@@ -238,7 +254,7 @@ void Renderer::make_target(int width, int height, int samples) {
     };
     target_->mesh_pass = new_framebuffer();
     glBindFramebuffer(GL_FRAMEBUFFER, target_->mesh_pass);
-    attach(target_->seen, GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, GL_COLOR_ATTACHMENT0);
+    attach(target_->seen, GL_RGBA32F, GL_RGBA, GL_FLOAT, GL_COLOR_ATTACHMENT0);
     attach(target_->depth, GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, GL_DEPTH_ATTACHMENT);
 
     target_->display_pass = new_framebuffer();
@@ -256,9 +272,7 @@ GLuint Renderer::draw(const RenderParams& params) {
     drew_mesh_ = false;
     make_target(params.width, params.height, params.samples);
     const double asked = params.display.max_display;
-    // Halves hold a hundred thousand steps of brightness: another MAXDISPLAY needs a new mesh pass only when it is far off.
-    const bool far_off = !(asked / drawn_max_display_ < 16 && drawn_max_display_ / asked < 16);
-    if (stale_ || far_off || !mesh_drawn_ || !same_mesh_pass(*mesh_drawn_, params)) {
+    if (stale_ || !mesh_drawn_ || !same_mesh_pass(*mesh_drawn_, params)) {
         const double start = seconds_now();
         draw_mesh(params, asked);
         drawn_max_display_ = asked;
@@ -309,42 +323,42 @@ void Renderer::draw_mesh(const RenderParams& params, double max_display) {
     glCullFace(GL_BACK);
     glFrontFace(params.camera.mirrored ? GL_CW : GL_CCW);
 
-    const bool with_lines = params.view == ViewMode::elements;
-    const GLuint program = with_lines ? lines_ : surfaces_;
-    glUseProgram(program);
+    unsigned variant = 0;
+    if (params.view == ViewMode::elements) variant |= with_lines;
+    if (params.view == ViewMode::unshot) variant |= of_unshot;
+    if (params.highlight_shooting && shooting_ != no_index) variant |= with_highlight;
     const double aspect = static_cast<double>(params.width) / params.height;
     const auto range = depth_range(params.camera, bounds_);
     const glm::mat4 clip = clip_from_world(params.camera, aspect, range.near_plane, range.far_plane);
-    glUniformMatrix4fv(place(program, "clip_from_world"), 1, GL_FALSE, glm::value_ptr(clip));
-    glUniform1ui(place(program, "selected_object"), params.selected ? static_cast<GLuint>(*params.selected) : no_index);
-    glUniformMatrix3fv(place(program, "rgb_from_xyz"), 1, GL_FALSE, glm::value_ptr(srgb_matrix()));
-    glUniform1f(place(program, "scale"), static_cast<float>(1 / max_display));
-    glUniform1i(place(program, "show_unshot"), params.view == ViewMode::unshot);
-    glUniform1i(place(program, "highlight"), params.highlight_shooting && shooting_ != no_index);
-    glUniform1ui(place(program, "highlighted"), shooting_);
-    const auto accent = decoded({colours::accent.x, colours::accent.y, colours::accent.z});
-    glUniform3f(place(program, "highlight_rgb"), static_cast<float>(accent.r), static_cast<float>(accent.g),
-                static_cast<float>(accent.b));
-    if (with_lines) {
+    const auto use = [&](GLuint program) { // what is the same for all batches
+        glUseProgram(program);
+        glUniformMatrix4fv(place(program, "clip_from_world"), 1, GL_FALSE, glm::value_ptr(clip));
+        glUniform1ui(place(program, "selected_object"), params.selected ? static_cast<GLuint>(*params.selected) : no_index);
+        glUniformMatrix3fv(place(program, "rgb_from_xyz"), 1, GL_FALSE, glm::value_ptr(srgb_matrix()));
+        glUniform1f(place(program, "scale"), static_cast<float>(1 / max_display));
+        glUniform1ui(place(program, "highlighted"), shooting_);
+        const glm::vec3 accent = decoded({colours::accent.x, colours::accent.y, colours::accent.z});
+        glUniform3fv(place(program, "highlight_rgb"), 1, glm::value_ptr(accent));
         glUniform2f(place(program, "viewport_size"), static_cast<float>(params.width), static_cast<float>(params.height));
         glUniform1f(place(program, "line_width"), params.line_width);
-    }
-    glUniform1i(place(program, "texels"), 0);
-    glUniform1i(place(program, "coarse_elements"), 1);
+        glUniform1i(place(program, "texels"), 0);
+        glUniform1i(place(program, "patches"), 1);
+    };
     glActiveTexture(GL_TEXTURE1);
     glBindTexture(GL_TEXTURE_BUFFER, coarse_texture_);
     glActiveTexture(GL_TEXTURE0);
 
     glBindVertexArray(vertex_array_);
+    GLuint program = 0;
     for (const auto& batch : batches_) {
-        const auto texture = batch.image ? textures_.find(batch.image) : textures_.end();
+        const auto texture = batch.image && !(variant & of_unshot) ? textures_.find(batch.image) : textures_.end();
         const bool textured = texture != textures_.end();
-        glUniform1i(place(program, "textured"), textured);
+        const GLuint wanted = mesh_programs_.at(textured ? variant | with_texture : variant);
+        if (wanted != program) use(program = wanted);
         if (textured) {
             glBindTexture(GL_TEXTURE_2D, texture->second);
-            const auto& mean = scene_->materials[at(batch.material)].texture->mean;
-            glUniform3f(place(program, "mean_rgb"), static_cast<float>(mean.r), static_cast<float>(mean.g),
-                        static_cast<float>(mean.b));
+            const glm::vec3 mean = scene_->materials[at(batch.material)].texture->mean;
+            glUniform3fv(place(program, "mean_rgb"), 1, glm::value_ptr(mean));
         }
         glUniform1i(place(program, "first_element"), static_cast<GLint>(batch.first));
         glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * batch.count), GL_UNSIGNED_INT,
@@ -401,7 +415,7 @@ double Renderer::largest_component_seen() {
     if (target_->samples > 1) {
         texture = new_texture();
         glBindTexture(GL_TEXTURE_2D, texture);
-        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, target_->width, target_->height, 0, GL_RGBA, GL_HALF_FLOAT, nullptr);
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, target_->width, target_->height, 0, GL_RGBA, GL_FLOAT, nullptr);
         glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved);
         glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
         glBlitFramebuffer(0, 0, target_->width, target_->height, 0, 0, target_->width, target_->height, GL_COLOR_BUFFER_BIT,

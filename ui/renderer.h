@@ -68,7 +68,8 @@ private:
     void draw_display(const RenderParams& params, double max_display);
     double largest_component_seen();
 
-    GlProgram surfaces_, lines_, display_one_, display_many_;
+    std::map<unsigned, GlProgram> mesh_programs_; // by their variants, see renderer.cpp
+    GlProgram display_one_, display_many_;
     GlVertexArray vertex_array_, no_vertices_;
     GlBuffer positions_, uvs_, objects_, reflected_, emitted_, unshot_, elements_, coarse_;
     GlTexture coarse_texture_;

@@ -6,144 +6,29 @@ sRGB; the darkest and lightest stay where paint and print can be (reflectance ab
 import math
 import os
 import random
-import struct
 import sys
-import zlib
+
+from canvas import Canvas, Noise, clamp, colour, mix, ramp, shade, smooth
 
 TAU = 2 * math.pi
 
 
-# ---- numbers ----
-
-def clamp(x, low=0.0, high=1.0):
-    return low if x < low else high if x > high else x
-
-
-def smooth(low, high, x):
-    t = clamp((x - low) / (high - low))
-    return t * t * (3 - 2 * t)
-
-
-def mix(a, b, t):
-    return (a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]) * t, a[2] + (b[2] - a[2]) * t)
-
-
-def shade(colour, factor):
-    return (colour[0] * factor, colour[1] * factor, colour[2] * factor)
-
-
-def colour(text):
-    return tuple(int(text[i:i + 2], 16) / 255 for i in (1, 3, 5))
-
-
-def ramp(stops, t):
-    """stops: [(place, colour)], rising."""
-    if t <= stops[0][0]:
-        return stops[0][1]
-    for (a, ca), (b, cb) in zip(stops, stops[1:]):
-        if t <= b:
-            return mix(ca, cb, smooth(a, b, t))
-    return stops[-1][1]
-
-
-class Noise:
-    """Value noise on a lattice that repeats each `period` cells, -1..1."""
-
-    def __init__(self, seed, period=64):
-        generator = random.Random(seed)
-        self.n = period
-        self.values = [generator.uniform(-1, 1) for _ in range(period * period)]
-
-    def at(self, x, y):
-        n, values = self.n, self.values
-        ix, iy = math.floor(x), math.floor(y)
-        fx, fy = x - ix, y - iy
-        fx, fy = fx * fx * (3 - 2 * fx), fy * fy * (3 - 2 * fy)
-        x0, x1, r0, r1 = ix % n, (ix + 1) % n, (iy % n) * n, ((iy + 1) % n) * n
-        a = values[r0 + x0] + (values[r0 + x1] - values[r0 + x0]) * fx
-        b = values[r1 + x0] + (values[r1 + x1] - values[r1 + x0]) * fx
-        return a + (b - a) * fy
-
-    def layers(self, x, y, octaves=4, gain=0.5):
-        total, weight, norm = 0.0, 1.0, 0.0
-        for _ in range(octaves):
-            total += weight * self.at(x, y)
-            norm += weight
-            x, y, weight = 2 * x, 2 * y, weight * gain
-        return total / norm
-
-
-# ---- canvas ----
-
-class Canvas:
-    def __init__(self, width, height, paint):
-        """paint(x, y) gives the colour at the centre of a pixel; x and y in pixels, y down."""
-        self.width, self.height = width, height
-        self.rows = [[paint(x + 0.5, y + 0.5) for x in range(width)] for y in range(height)]
-
-    def blend(self, x, y, paint, share):
-        if share > 0 and 0 <= x < self.width and 0 <= y < self.height:
-            self.rows[y][x] = mix(self.rows[y][x], paint, min(share, 1.0))
-
-    def disk(self, cx, cy, radius, paint, share=1.0):
-        for y in range(int(cy - radius - 1), int(cy + radius + 2)):
-            for x in range(int(cx - radius - 1), int(cx + radius + 2)):
-                self.blend(x, y, paint, share * clamp(radius + 0.5 - math.hypot(x + 0.5 - cx, y + 0.5 - cy)))
-
-    def area(self, x0, y0, x1, y1, paint, share=1.0):
-        for y in range(max(0, math.floor(y0)), min(self.height, math.ceil(y1))):
-            cover_y = min(y + 1, y1) - max(y, y0)
-            for x in range(max(0, math.floor(x0)), min(self.width, math.ceil(x1))):
-                self.blend(x, y, paint, share * cover_y * (min(x + 1, x1) - max(x, x0)))
-
-    def line(self, x0, y0, x1, y1, width, paint, share=1.0):
-        l2 = (x1 - x0) ** 2 + (y1 - y0) ** 2 or 1.0
-        reach = width / 2 + 1
-        for y in range(int(min(y0, y1) - reach), int(max(y0, y1) + reach) + 1):
-            for x in range(int(min(x0, x1) - reach), int(max(x0, x1) + reach) + 1):
-                px, py = x + 0.5 - x0, y + 0.5 - y0
-                t = clamp((px * (x1 - x0) + py * (y1 - y0)) / l2)
-                d = math.hypot(px - t * (x1 - x0), py - t * (y1 - y0))
-                self.blend(x, y, paint, share * clamp(width / 2 + 0.5 - d))
-
-    def write(self, path):
-        """A PNG of 8 bits, each row with the filter that leaves the smallest differences."""
-        previous = bytes(3 * self.width)
-        data = bytearray()
-        for row in self.rows:
-            line = bytes(int(clamp(c) * 255 + 0.5) for p in row for c in p)
-            left = bytes(3) + line[:-3]
-            corner = bytes(3) + previous[:-3]
-            sub = bytes((a - b) & 255 for a, b in zip(line, left))
-            up = bytes((a - b) & 255 for a, b in zip(line, previous))
-            paeth = bytearray()
-            for a, b, c, d in zip(line, left, previous, corner):
-                pb, pc, pd = abs(c - d), abs(b - d), abs(b + c - 2 * d)
-                paeth.append((a - (b if pb <= pc and pb <= pd else c if pc <= pd else d)) & 255)
-            choices = ((1, sub), (2, up), (4, bytes(paeth)))
-            kind, best = min(choices, key=lambda choice: sum(v if v < 128 else 256 - v for v in choice[1]))
-            data.append(kind)
-            data += best
-            previous = line
-
-        def chunk(name, body):
-            return struct.pack('>I', len(body)) + name + body + struct.pack('>I', zlib.crc32(name + body))
-
-        header = struct.pack('>IIBBBBB', self.width, self.height, 8, 2, 0, 0, 0)
-        with open(path, 'wb') as file:
-            file.write(b'\x89PNG\r\n\x1a\n' + chunk(b'IHDR', header) + chunk(b'sRGB', b'\0')
-                       + chunk(b'IDAT', zlib.compress(bytes(data), 9)) + chunk(b'IEND', b''))
-
-
 # ---- paintings ----
+
 
 def dunes():
     w, h = 840, 560
     sky = [(0.0, colour('#2f4b6e')), (0.35, colour('#8f7f9c')), (0.55, colour('#e3a27f')), (0.68, colour('#f2cf9a'))]
     tones = ['#d99a6c', '#c47a55', '#a85c48', '#84453f', '#5e3238', '#3a2430']
     noise = Noise(11)
-    ridges = [[h * (0.52 + 0.085 * k) + h * (0.11 - 0.008 * k) * noise.layers(3.1 * k + x / w * (2.2 + 0.5 * k), 7.7 * k, 3)
-               for x in range(w)] for k in range(6)]
+    ridges = [
+        [
+            h * (0.52 + 0.085 * k)
+            + h * (0.11 - 0.008 * k) * noise.layers(3.1 * k + x / w * (2.2 + 0.5 * k), 7.7 * k, 3)
+            for x in range(w)
+        ]
+        for k in range(6)
+    ]
 
     def paint(x, y):
         result = ramp(sky, y / h + 0.03 * noise.layers(x / w * 3, y / h * 14, 3))
@@ -157,6 +42,7 @@ def dunes():
                 grain = 0.04 * noise.layers(x / 46, (y + 0.3 * x) / 9 + 20 * k, 2)
                 result = mix(result, shade(tone, 1 + grain), clamp(below + 0.5))
         return result
+
     return Canvas(w, h, paint)
 
 
@@ -173,23 +59,31 @@ def sea():
             cloud = noise.layers(x / w * 4 / depth + 3, t * 5 / depth, 5)
             lit = noise.layers(x / w * 4 / depth + 3.12, t * 5 / depth - 0.12, 5)
             cover = smooth(-0.02, 0.42, cloud)
-            result = mix(result, mix(colour('#b7b4bd'), colour('#f4ece0'), smooth(-0.15, 0.3, cloud - 0.4 * lit)), 0.9 * cover)
+            result = mix(
+                result, mix(colour('#b7b4bd'), colour('#f4ece0'), smooth(-0.15, 0.3, cloud - 0.4 * lit)), 0.9 * cover
+            )
             return result
         t = (y - horizon) / (h - horizon)
         scale = 0.05 + t
         wave = noise.layers(x / w * 5 / scale, 9 * math.log(scale) * 2.6, 4)
-        result = ramp([(0, colour('#9db4b5')), (0.12, colour('#4d8593')), (0.55, colour('#1f5d70')), (1, colour('#12394d'))], t)
+        result = ramp(
+            [(0, colour('#9db4b5')), (0.12, colour('#4d8593')), (0.55, colour('#1f5d70')), (1, colour('#12394d'))], t
+        )
         result = mix(result, colour('#cfe0da'), smooth(0.22, 0.5, wave) * (0.75 - 0.35 * t))
         result = mix(result, colour('#0f2f42'), smooth(0.1, 0.55, -wave) * 0.6)
-        glint = math.exp(-((x - 0.36 * w) / (30 + 190 * t)) ** 2) * smooth(0.0, 0.4, wave + 0.15)
+        glint = math.exp(-(((x - 0.36 * w) / (30 + 190 * t)) ** 2)) * smooth(0.0, 0.4, wave + 0.15)
         return mix(result, colour('#f6ead2'), 0.7 * glint)
+
     return Canvas(w, h, paint)
 
 
 def circles():
     w, h = 600, 750
     generator = random.Random(5)
-    palette = [colour(c) for c in ('#d8432f', '#f0a830', '#f3e3c3', '#1f4e79', '#2f8f83', '#17202e', '#e07a8b', '#7fb2d6', '#8a3b62')]
+    palette = [
+        colour(c)
+        for c in ('#d8432f', '#f0a830', '#f3e3c3', '#1f4e79', '#2f8f83', '#17202e', '#e07a8b', '#7fb2d6', '#8a3b62')
+    ]
     cell = 150
     grid = {}
     for j in range(5):
@@ -208,13 +102,18 @@ def circles():
             d = math.hypot(px - dx * k / 3, py - dy * k / 3) + wobble
             result = mix(result, choice[k + 1], clamp(r - d + 0.5))
         return shade(result, 0.95 + 0.05 * noise.layers(x / 9, y / 120, 2))
+
     return Canvas(w, h, paint)
 
 
 def fields():
     w, h = 560, 760
     noise = Noise(31)
-    blocks = [(0.07, 0.06, 0.93, 0.36, '#c8371f'), (0.07, 0.39, 0.93, 0.55, '#e98a1c'), (0.07, 0.58, 0.93, 0.94, '#5b1425')]
+    blocks = [
+        (0.07, 0.06, 0.93, 0.36, '#c8371f'),
+        (0.07, 0.39, 0.93, 0.55, '#e98a1c'),
+        (0.07, 0.58, 0.93, 0.94, '#5b1425'),
+    ]
 
     def paint(x, y):
         u, v = x / w, y / h
@@ -225,6 +124,7 @@ def fields():
             wash = 1 + 0.11 * noise.layers(u * 9, v * 4, 4) + 0.05 * noise.at(u * 60, v * 3)
             result = mix(result, shade(colour(tone), wash), 0.93 * smooth(-0.012, 0.022, edge))
         return result
+
     return Canvas(w, h, paint)
 
 
@@ -269,12 +169,21 @@ def arcs():
 def currents():
     w, h = 800, 600
     noise = Noise(41)
-    ground = Canvas(w, h, lambda x, y: mix(colour('#10202f'), colour('#1d3a4f'), 0.5 + 0.5 * noise.layers(x / 260, y / 260, 3)))
+    ground = Canvas(
+        w, h, lambda x, y: mix(colour('#10202f'), colour('#1d3a4f'), 0.5 + 0.5 * noise.layers(x / 260, y / 260, 3))
+    )
     generator = random.Random(42)
-    palette = [colour(c) for c in ('#f2e8cf', '#e9c46a', '#f4a261', '#e76f51', '#2a9d8f', '#8ecae6', '#8ecae6', '#457b9d')]
+    palette = [
+        colour(c) for c in ('#f2e8cf', '#e9c46a', '#f4a261', '#e76f51', '#2a9d8f', '#8ecae6', '#8ecae6', '#457b9d')
+    ]
     for _ in range(620):
         x, y = generator.uniform(-20, w + 20), generator.uniform(-20, h + 20)
-        tone = palette[int(clamp(0.5 + 0.5 * noise.layers(x / 300 + 9, y / 300 + 5, 2) + generator.uniform(-0.2, 0.2), 0, 0.999) * 8)]
+        tone = palette[
+            int(
+                clamp(0.5 + 0.5 * noise.layers(x / 300 + 9, y / 300 + 5, 2) + generator.uniform(-0.2, 0.2), 0, 0.999)
+                * 8
+            )
+        ]
         steps, width = generator.randint(30, 110), generator.choice((1.2, 1.6, 2.4, 3.6))
         for k in range(steps):
             angle = TAU * 0.9 * noise.layers(x / 310, y / 310, 2)
@@ -288,8 +197,16 @@ def currents():
 def marble():
     w, h = 640, 640
     noise = Noise(51)
-    stops = [(-0.55, colour('#0c2733')), (-0.25, colour('#14505c')), (-0.05, colour('#3f8f8c')), (0.08, colour('#cfe0cf')),
-             (0.16, colour('#f1e6c8')), (0.24, colour('#c99a3f')), (0.34, colour('#7c4a25')), (0.6, colour('#1b2430'))]
+    stops = [
+        (-0.55, colour('#0c2733')),
+        (-0.25, colour('#14505c')),
+        (-0.05, colour('#3f8f8c')),
+        (0.08, colour('#cfe0cf')),
+        (0.16, colour('#f1e6c8')),
+        (0.24, colour('#c99a3f')),
+        (0.34, colour('#7c4a25')),
+        (0.6, colour('#1b2430')),
+    ]
 
     def paint(x, y):
         u, v = x / w * 2.4, y / h * 2.4
@@ -298,6 +215,7 @@ def marble():
         ry = noise.layers(u + 2.2 * qx + 8.3, v + 2.2 * qy + 2.8, 3)
         value = noise.layers(u + 2.4 * rx, v + 2.4 * ry, 4)
         return shade(ramp(stops, 1.15 * value), 0.92 + 0.25 * qx)
+
     return Canvas(w, h, paint)
 
 
@@ -315,10 +233,15 @@ def birches():
         floor = smooth(0.74, 0.80, v + 0.04 * noise.layers(x / 80, 3.3, 3))
         litter = mix(colour('#5c3a1e'), colour('#c0732c'), 0.5 + 0.7 * noise.layers(x / 26, y / 7, 3))
         return mix(result, litter, floor)
+
     canvas = Canvas(w, h, ground)
     for depth in (0.35, 0.6, 1.0):
         for _ in range({0.35: 9, 0.6: 6, 1.0: 4}[depth]):
-            x0, lean, radius = generator.uniform(0, w), generator.uniform(-0.05, 0.05), 7 + 19 * depth * generator.uniform(0.8, 1.15)
+            x0, lean, radius = (
+                generator.uniform(0, w),
+                generator.uniform(-0.05, 0.05),
+                7 + 19 * depth * generator.uniform(0.8, 1.15),
+            )
             foot, phase = h * (0.78 + 0.20 * depth), generator.uniform(0, 60)
             bark = mix(colour('#d8b98a'), colour('#efe9dc'), depth)
             for y in range(int(foot)):
@@ -327,7 +250,9 @@ def birches():
                 for x in range(int(cx - r - 1), int(cx + r + 2)):
                     s = (x + 0.5 - cx) / r
                     if abs(s) < 1.1:
-                        mark = smooth(0.30, 0.46, noise.layers(x / (0.9 * radius) + phase, y / (0.20 * radius) + phase, 2))
+                        mark = smooth(
+                            0.30, 0.46, noise.layers(x / (0.9 * radius) + phase, y / (0.20 * radius) + phase, 2)
+                        )
                         tone = shade(mix(bark, colour('#38302c'), 0.9 * mark), 1 - 0.45 * smooth(-0.4, 1.0, s))
                         canvas.blend(x, y, tone, clamp((1 - abs(s)) * r + 0.5) * (0.55 + 0.45 * depth))
     return canvas
@@ -338,8 +263,13 @@ def moonlight():
     noise = Noise(71)
     tones = ['#4b6a8c', '#34527a', '#233d63', '#16294a']
     shore = 0.66 * h
-    ridges = [[h * (0.36 + 0.075 * k) + h * 0.16 * noise.layers(5.3 * k + x / w * (3 + k), 3.1 * k, 5, 0.45) for x in range(w)]
-              for k in range(4)]
+    ridges = [
+        [
+            h * (0.36 + 0.075 * k) + h * 0.16 * noise.layers(5.3 * k + x / w * (3 + k), 3.1 * k, 5, 0.45)
+            for x in range(w)
+        ]
+        for k in range(4)
+    ]
     generator = random.Random(72)
     stars = [(generator.uniform(0, w), generator.uniform(0, 0.4 * h), generator.uniform(0.5, 1.3)) for _ in range(150)]
 
@@ -360,10 +290,13 @@ def moonlight():
             return scene(x, y)
         t = (y - shore) / (h - shore)
         ripple = noise.layers(x / (18 + 60 * t), (y - shore) / (1.5 + 5 * t), 3)
-        result = scene(clamp(x + 9 * ripple * t * 2, 0, w - 1), clamp(2 * shore - y - (y - shore) * 0.6 + 7 * ripple, 0, shore))
+        result = scene(
+            clamp(x + 9 * ripple * t * 2, 0, w - 1), clamp(2 * shore - y - (y - shore) * 0.6 + 7 * ripple, 0, shore)
+        )
         result = mix(shade(result, 0.8), colour('#0f2038'), 0.2 + 0.3 * t)
-        path = math.exp(-((x - 0.3 * w) / (22 + 40 * t)) ** 2) * smooth(-0.1, 0.35, ripple)
+        path = math.exp(-(((x - 0.3 * w) / (22 + 40 * t)) ** 2)) * smooth(-0.1, 0.35, ripple)
         return mix(result, colour('#eef0e4'), 0.8 * path)
+
     canvas = Canvas(w, h, paint)
     for x, y, r in stars:
         if y < min(ridge[int(x)] for ridge in ridges) - 4:
@@ -374,7 +307,13 @@ def moonlight():
 def seeds():
     w, h = 640, 640
     canvas = Canvas(w, h, lambda x, y: mix(colour('#f4ead5'), colour('#ead7b4'), math.hypot(x - 320, y - 320) / 450))
-    stops = [(0, colour('#7a2e1f')), (0.25, colour('#c8502e')), (0.5, colour('#eaa23b')), (0.72, colour('#5f9e84')), (1, colour('#1f5673'))]
+    stops = [
+        (0, colour('#7a2e1f')),
+        (0.25, colour('#c8502e')),
+        (0.5, colour('#eaa23b')),
+        (0.72, colour('#5f9e84')),
+        (1, colour('#1f5673')),
+    ]
     golden = math.pi * (3 - math.sqrt(5))
     for k in range(1, 720):
         r = 10.9 * math.sqrt(k)
@@ -384,6 +323,7 @@ def seeds():
 
 
 # ---- materials ----
+
 
 def carpet():
     """Carpet tiles of 0.5 m, laid quarter-turned: 2 m by 2 m, repeats."""
@@ -402,6 +342,7 @@ def carpet():
         seam = min(x % 128, 128 - x % 128, y % 128, 128 - y % 128)
         tone = shade(base, tiles[i, j] * (1 + loop - 0.10 * smooth(2.0, 0.5, seam)))
         return mix(tone, colour('#a3aeae'), fleck * 3)
+
     return Canvas(n, n, paint)
 
 
@@ -413,7 +354,15 @@ def ceiling():
     canvas = Canvas(n, n, lambda x, y: shade(colour('#ecebe6'), 1 + 0.012 * noise.at(x / 4, y / 4)))
     for _ in range(420):
         x, y = generator.uniform(8, n - 8), generator.uniform(8, n - 8)
-        canvas.line(x, y, x + generator.uniform(-3, 3), y + generator.uniform(-1.5, 1.5), generator.uniform(0.7, 1.5), colour('#cfcdc6'), 0.7)
+        canvas.line(
+            x,
+            y,
+            x + generator.uniform(-3, 3),
+            y + generator.uniform(-1.5, 1.5),
+            generator.uniform(0.7, 1.5),
+            colour('#cfcdc6'),
+            0.7,
+        )
     for k in (0, n - 5):
         canvas.area(k, 0, k + 5, n, colour('#f0f0ee'))
         canvas.area(0, k, n, k + 5, colour('#f0f0ee'))
@@ -448,7 +397,11 @@ def parquet():
     """Oak planks of 1.6 m by 0.16 m, staggered: 3.2 m by 1.28 m, repeats."""
     w, h = 1024, 410
     noise, generator = Noise(111), random.Random(112)
-    planks = {(i, j): (generator.uniform(0.86, 1.08), generator.uniform(0, 40), generator.uniform(0, 1)) for i in range(2) for j in range(8)}
+    planks = {
+        (i, j): (generator.uniform(0.86, 1.08), generator.uniform(0, 40), generator.uniform(0, 1))
+        for i in range(2)
+        for j in range(8)
+    }
 
     def paint(x, y):
         mx, my = x / w * 3200, y / h * 1280
@@ -456,10 +409,13 @@ def parquet():
         shifted = (mx + (0, 610, 1130, 380, 930, 210, 1340, 760)[j]) % 3200
         i = int(shifted / 1600)
         tone, phase, warm = planks[i, j]
-        result = grain(shifted % 1600 + 900 * phase, my % 160 + 300 * phase, noise, colour('#8a6a4a'), colour('#b99a74'))
+        result = grain(
+            shifted % 1600 + 900 * phase, my % 160 + 300 * phase, noise, colour('#8a6a4a'), colour('#b99a74')
+        )
         result = mix(shade(result, tone), shade(colour('#b39672'), tone), 0.25 * warm)
         seam = min(shifted % 1600, 1600 - shifted % 1600, my % 160, 160 - my % 160)
         return shade(result, 1 - 0.45 * smooth(4.0, 1.2, seam))
+
     return Canvas(w, h, paint)
 
 
@@ -467,17 +423,32 @@ def keyboard():
     """The keys of a keyboard, seen from above: 440 mm by 140 mm."""
     w, h = 352, 112
     canvas = Canvas(w, h, lambda x, y: colour('#33363b'))
-    rows = [[1.0] * 15, [1.5] + [1.0] * 12 + [1.5], [1.8] + [1.0] * 11 + [2.2], [2.3] + [1.0] * 10 + [2.7], [1.3, 1.3, 1.3, 6.2, 1.3, 1.3, 2.3]]
+    rows = [
+        [1.0] * 15,
+        [1.5] + [1.0] * 12 + [1.5],
+        [1.8] + [1.0] * 11 + [2.2],
+        [2.3] + [1.0] * 10 + [2.7],
+        [1.3, 1.3, 1.3, 6.2, 1.3, 1.3, 2.3],
+    ]
     for j, row in enumerate(rows):
         x = 6.0
         for k, width in enumerate(row):
             step = width * 15.2
             special = (j > 0 and k in (0, len(row) - 1)) or j == 4 and k != 3
-            canvas.area(x + 1, 9 + 19.4 * j, x + step - 1.5, 9 + 19.4 * j + 16, colour('#5a5e64' if special else '#d4d5d3'))
+            canvas.area(
+                x + 1, 9 + 19.4 * j, x + step - 1.5, 9 + 19.4 * j + 16, colour('#5a5e64' if special else '#d4d5d3')
+            )
             x += step
     for j in range(5):
         for i in range(7):
-            canvas.area(240 + 15 * i + 1, 9 + 19.4 * j, 240 + 15 * i + 13.5, 9 + 19.4 * j + 16, colour('#d4d5d3' if i > 3 else '#5a5e64'), 1.0 if i != 3 else 0.0)
+            canvas.area(
+                240 + 15 * i + 1,
+                9 + 19.4 * j,
+                240 + 15 * i + 13.5,
+                9 + 19.4 * j + 16,
+                colour('#d4d5d3' if i > 3 else '#5a5e64'),
+                1.0 if i != 3 else 0.0,
+            )
     return canvas
 
 
@@ -489,7 +460,9 @@ def screens():
     canvas.area(0, 0, 384, 9, colour('#39424d'))
     canvas.area(0, 9, 62, h, colour('#1c2229'))
     for k in range(22):
-        canvas.area(8 + 5 * (k % 3), 16 + 9 * k, 8 + 5 * (k % 3) + generator.uniform(18, 38), 19 + 9 * k, colour('#66727f'))
+        canvas.area(
+            8 + 5 * (k % 3), 16 + 9 * k, 8 + 5 * (k % 3) + generator.uniform(18, 38), 19 + 9 * k, colour('#66727f')
+        )
     tones = ['#7fb4d8', '#c9d1d9', '#d9a66c', '#8fc08a', '#b48ead', '#c9d1d9']
     for k in range(24):
         x = 74 + 12 * generator.choice((0, 1, 1, 2, 2, 3))
@@ -505,10 +478,23 @@ def screens():
     for k in range(12):
         canvas.area(392, 22 + 15 * k, 392 + generator.uniform(24, 48), 27 + 15 * k, colour('#7b868c'))
     ink = colour('#3a4650')
-    for x0, y0, x1, y1 in ((470, 30, 745, 30), (470, 30, 470, 195), (470, 195, 745, 195), (745, 30, 745, 195), (560, 30, 560, 110),
-                           (560, 110, 470, 110), (640, 80, 640, 195), (640, 80, 745, 80)):
+    for x0, y0, x1, y1 in (
+        (470, 30, 745, 30),
+        (470, 30, 470, 195),
+        (470, 195, 745, 195),
+        (745, 30, 745, 195),
+        (560, 30, 560, 110),
+        (560, 110, 470, 110),
+        (640, 80, 640, 195),
+        (640, 80, 745, 80),
+    ):
         canvas.line(x0, y0, x1, y1, 3, ink)
-    for x0, y0, x1, y1, tone in ((480, 40, 550, 100, '#f0c987'), (650, 90, 735, 185, '#9cc4b2'), (570, 125, 630, 185, '#c7d7e6'), (490, 125, 550, 165, '#e2a79a')):
+    for x0, y0, x1, y1, tone in (
+        (480, 40, 550, 100, '#f0c987'),
+        (650, 90, 735, 185, '#9cc4b2'),
+        (570, 125, 630, 185, '#c7d7e6'),
+        (490, 125, 550, 165, '#e2a79a'),
+    ):
         canvas.area(x0, y0, x1, y1, colour(tone))
     return canvas
 
@@ -517,7 +503,9 @@ def whiteboard():
     """What somebody left on the whiteboard, 2:1."""
     w, h = 640, 320
     noise = Noise(131)
-    canvas = Canvas(w, h, lambda x, y: shade(colour('#eceeee'), 1 - 0.02 * smooth(0.1, 0.6, noise.layers(x / 150, y / 40, 3))))
+    canvas = Canvas(
+        w, h, lambda x, y: shade(colour('#eceeee'), 1 - 0.02 * smooth(0.1, 0.6, noise.layers(x / 150, y / 40, 3)))
+    )
     generator = random.Random(132)
 
     def stroke(points, tone, width=2.2):
@@ -528,10 +516,13 @@ def whiteboard():
         for _ in range(words):
             points = []
             for k in range(generator.randint(5, 11)):
-                points.append((x, y + generator.uniform(-size / 2, size / 2) * (1.6 if generator.random() < 0.2 else 1)))
+                points.append(
+                    (x, y + generator.uniform(-size / 2, size / 2) * (1.6 if generator.random() < 0.2 else 1))
+                )
                 x += generator.uniform(2.5, 4.5)
             stroke(points, tone, 1.6)
             x += 8
+
     blue, red, green, black = '#24509a', '#b5322c', '#2f7d4a', '#2b2f33'
     writing(38, 40, 4, black, 11)
     stroke([(38, 54), (200, 53)], red)
@@ -552,8 +543,26 @@ def whiteboard():
     return canvas
 
 
-ALL = [dunes, sea, circles, fields, arcs, currents, marble, birches, moonlight, seeds,
-       carpet, ceiling, oak, walnut, parquet, keyboard, screens, whiteboard]
+ALL = [
+    dunes,
+    sea,
+    circles,
+    fields,
+    arcs,
+    currents,
+    marble,
+    birches,
+    moonlight,
+    seeds,
+    carpet,
+    ceiling,
+    oak,
+    walnut,
+    parquet,
+    keyboard,
+    screens,
+    whiteboard,
+]
 
 if __name__ == '__main__':
     folder = os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', 'pictures')

@@ -22,10 +22,12 @@ constexpr std::uint32_t grain = 256;
 #endif
 
 template <int Stride>
-[[gnu::always_inline]] inline void apply_receiver(std::span<const GatherPass> passes, const ChannelField& field, std::uint32_t i, float* out) {
+[[gnu::always_inline]] inline void apply_receiver(std::span<const GatherPass> passes, RayEnds which, const ChannelField& field,
+                                                  std::uint32_t i, float* out) {
     float sum[Stride] = {};
     for (const GatherPass& pass : passes) {
-        const std::uint32_t* ends = pass.ends.data() + std::size_t(i) * rays_per_pass;
+        const std::vector<std::uint32_t>& all_ends = which == RayEnds::coarse ? pass.ends : pass.fine_ends;
+        const std::uint32_t* ends = all_ends.data() + std::size_t(i) * rays_per_pass;
         for (int k = 0; k < rays_per_pass; ++k) {
             const float* row = field.values.data() + std::size_t(ends[k]) * Stride;
             for (int c = 0; c < Stride; ++c) sum[c] += row[c];
@@ -35,14 +37,14 @@ template <int Stride>
     for (int c = 0; c < Stride; ++c) out[c] = sum[c] * share;
 }
 
-LUEUR_BEST_VECTORS void apply_receivers(std::span<const GatherPass> passes, const ChannelField& field, std::uint32_t first,
+LUEUR_BEST_VECTORS void apply_receivers(std::span<const GatherPass> passes, RayEnds ends, const ChannelField& field, std::uint32_t first,
                                         std::uint32_t last, ChannelField& out) {
     for (std::uint32_t i = first; i < last; ++i) {
         switch (field.stride) {
-        case 8: apply_receiver<8>(passes, field, i, out[i]); break;
-        case 16: apply_receiver<16>(passes, field, i, out[i]); break;
-        case 24: apply_receiver<24>(passes, field, i, out[i]); break;
-        default: apply_receiver<32>(passes, field, i, out[i]); break;
+        case 8: apply_receiver<8>(passes, ends, field, i, out[i]); break;
+        case 16: apply_receiver<16>(passes, ends, field, i, out[i]); break;
+        case 24: apply_receiver<24>(passes, ends, field, i, out[i]); break;
+        default: apply_receiver<32>(passes, ends, field, i, out[i]); break;
         }
     }
 }
@@ -72,16 +74,16 @@ void for_each_vertex(std::uint32_t n, const F& f) {
 
 } // namespace
 
-bool apply_rows(std::span<const GatherPass> passes, const ChannelField& field, ChannelField& out,
+bool apply_rows(std::span<const GatherPass> passes, RayEnds ends, const ChannelField& field, ChannelField& out,
                 const std::atomic<bool>& cancel) {
     if (passes.empty()) {
         std::fill(out.values.begin(), out.values.end(), 0.0f);
         return true;
     }
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, field.count - 1, 64),
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, out.count, 64),
                       [&](const tbb::blocked_range<std::uint32_t>& range) {
                           if (!cancel.load(std::memory_order_relaxed))
-                              apply_receivers(passes, field, range.begin(), range.end(), out);
+                              apply_receivers(passes, ends, field, range.begin(), range.end(), out);
                       });
     return !cancel.load(std::memory_order_relaxed);
 }
@@ -90,10 +92,10 @@ GatherSystem::GatherSystem(std::uint32_t vertices, int channels, std::vector<flo
     : n_(vertices), channels_(channels), weight_(std::move(weight)), rho_(vertices, channels), b_(vertices, channels),
       x_(vertices + 1, channels), h_(vertices, channels), r_(vertices, channels) {}
 
-void GatherSystem::set_sources(const ChannelField& rho, const ChannelField& direct) {
+void GatherSystem::set_sources(const ChannelField& rho, const ChannelField& gathered) {
     rho_ = rho;
     for_each_vertex(n_, [&](std::uint32_t i) {
-        for (int c = 0; c < channels_; ++c) b_[i][c] = rho_[i][c] * direct[i][c];
+        for (int c = 0; c < channels_; ++c) b_[i][c] = rho_[i][c] * gathered[i][c];
     });
     // The guess alpha x with the smallest |b - alpha A x|: one lamp dimmed or recoloured is then solved at once.
     const auto ax = [&](std::uint32_t i, int c) { return double(x_[i][c]) - double(rho_[i][c]) * h_[i][c]; };
@@ -113,18 +115,7 @@ void GatherSystem::set_sources(const ChannelField& rho, const ChannelField& dire
 
 void GatherSystem::set_rows(const std::vector<GatherPass>& passes) {
     const std::atomic<bool> never{false};
-    apply_rows(passes, x_, h_, never);
-    refresh_residual();
-}
-
-void GatherSystem::add_pass(const std::vector<GatherPass>& passes) {
-    const std::atomic<bool> never{false};
-    ChannelField of_pass(n_, channels_);
-    apply_rows(std::span(passes).last(1), x_, of_pass, never);
-    const float share = 1.0f / static_cast<float>(passes.size());
-    for_each_vertex(n_, [&](std::uint32_t i) {
-        for (int c = 0; c < channels_; ++c) h_[i][c] += share * (of_pass[i][c] - h_[i][c]);
-    });
+    apply_rows(passes, RayEnds::coarse, x_, h_, never);
     refresh_residual();
 }
 
@@ -153,7 +144,7 @@ double GatherSystem::relative_residual() const {
 bool GatherSystem::sweep(const std::vector<GatherPass>& passes, const std::atomic<bool>& cancel) {
     Direction next{ChannelField(n_ + 1, channels_), ChannelField(n_, channels_), {}};
     std::copy(r_.values.begin(), r_.values.end(), next.p.values.begin());
-    if (!apply_rows(passes, next.p, next.wp, cancel)) return false;
+    if (!apply_rows(passes, RayEnds::coarse, next.p, next.wp, cancel)) return false;
 
     const auto times_a = [&](const Direction& d, std::uint32_t i, int c) { return d.p[i][c] - rho_[i][c] * d.wp[i][c]; };
     for (const Direction& old : directions_) { // make A p orthogonal to the kept ones

@@ -1,6 +1,7 @@
-// The gathered system (I - rho W) B = rho H_direct, solved for all channels at once on kept rows.
+// The gathered system (I - rho W) U = rho G, solved for all channels at once on kept rows.
 //
-// B: reflected radiosity at the coarse vertices, W m^-2 nm^-1. W: gather_rows.h. H = W B is the indirect irradiance.
+// G: irradiance after one reflection of direct light, gathered from the fine vertices where direct light is kept. U: the part of the
+// radiosity that indirect light is reflected into, at the coarse vertices, W m^-2 nm^-1. W: gather_rows.h. H = G + W U is the indirect irradiance.
 // Method: generalised conjugate residuals, truncated (Eisenstat, Elman & Schultz 1983, Orthomin(k)): one application of W a sweep, and the
 // residual of no channel ever grows. W by random rays is not symmetric, so conjugate gradients are not available; plain Jacobi
 // sweeps need ln(eps)/ln(rho) of them. Each channel is its own system: the coefficients are per channel.
@@ -16,9 +17,10 @@
 
 namespace lueur {
 
-// out_i = mean over all rays of all passes of field[end of ray]. `field` has one more row than receivers, which is zero: the outside.
+// out_i = mean over all rays of all passes of field[end of ray]. `field` has one more row than vertices, which is zero: the outside.
 // False (and out undefined) when cancelled.
-bool apply_rows(std::span<const GatherPass> passes, const ChannelField& field, ChannelField& out,
+enum class RayEnds { coarse, fine };
+bool apply_rows(std::span<const GatherPass> passes, RayEnds ends, const ChannelField& field, ChannelField& out,
                 const std::atomic<bool>& cancel);
 
 class GatherSystem {
@@ -27,20 +29,19 @@ public:
     // weight: of each vertex in norms, its area; rho: n rows.
     GatherSystem(std::uint32_t vertices, int channels, std::vector<float> weight);
 
-    // A new right side (rho * H_direct) and reflectance; keeps the solution so far as the first guess, scaled in each channel so that
+    // A new right side (rho * G) and reflectance; keeps the solution so far as the first guess, scaled in each channel so that
     // its residual is smallest. Needs no ray and no application of W.
-    void set_sources(const ChannelField& rho, const ChannelField& direct);
-    void set_rows(const std::vector<GatherPass>& passes);   // other rays: H = W B anew
-    void add_pass(const std::vector<GatherPass>& passes);   // the last pass is new
-    void clear(); // B = 0
+    void set_sources(const ChannelField& rho, const ChannelField& gathered);
+    void set_rows(const std::vector<GatherPass>& passes);   // other rays: W U anew
+    void clear(); // U = 0
 
     bool sweep(const std::vector<GatherPass>& passes, const std::atomic<bool>& cancel); // false when cancelled (nothing changed)
 
     double relative_residual() const; // worst channel: |r| / |b|, area-weighted 2-norms; 0 for a channel without light
     bool diverged() const { return diverged_; }
 
-    const ChannelField& radiosity() const { return x_; }   // n + 1 rows, the last zero
-    const ChannelField& indirect() const { return h_; }    // H = W B
+    const ChannelField& radiosity() const { return x_; }   // U; n + 1 rows, the last zero
+    const ChannelField& gathered() const { return h_; }    // W U
     const ChannelField& residual() const { return r_; }    // unshot radiosity
 
 private:

@@ -13,22 +13,23 @@ using Range = tbb::blocked_range<std::uint32_t>;
 constexpr float grey = 0.5f;
 constexpr int grey_sweeps = 8; // 0.5^8: far below what the rays can tell
 
-// `radiosity` has one more entry than receivers, 0: the outside.
-double pass_mean(const GatherPass& pass, std::uint32_t receiver, const std::vector<float>& radiosity) {
+// Mean over a receiver's rays of a pass. Both fields have one more entry than vertices, 0: the outside.
+double pass_mean(const GatherPass& pass, std::uint32_t receiver, const ScalarRadiosity& b) {
     double sum = 0;
-    const std::uint32_t* ends = pass.ends.data() + std::size_t(receiver) * rays_per_pass;
-    for (int k = 0; k < rays_per_pass; ++k) sum += radiosity[ends[k]];
+    const std::size_t first = std::size_t(receiver) * rays_per_pass;
+    for (int k = 0; k < rays_per_pass; ++k) sum += b.indirect[pass.ends[first + k]] + b.direct[pass.fine_ends[first + k]];
     return sum / rays_per_pass;
 }
 
 } // namespace
 
-double ray_error(std::span<const GatherPass> passes, std::span<const float> radiosity, std::span<const float> direct,
+double ray_error(std::span<const GatherPass> passes, const ScalarRadiosity& radiosity, std::span<const float> direct,
                  std::span<const float> weight) {
     if (passes.size() < independent_sets || passes.size() % independent_sets != 0) return 1;
-    const std::uint32_t n = static_cast<std::uint32_t>(radiosity.size());
-    std::vector<float> b(radiosity.begin(), radiosity.end());
-    b.push_back(0);
+    const std::uint32_t n = static_cast<std::uint32_t>(radiosity.indirect.size());
+    ScalarRadiosity b = radiosity;
+    b.indirect.push_back(0);
+    b.direct.push_back(0);
     std::vector<float> total(n), variance(n);
     tbb::parallel_for(Range(0, n, 256), [&](const Range& range) {
         for (std::uint32_t i = range.begin(); i < range.end(); ++i) {
@@ -52,21 +53,25 @@ double ray_error(std::span<const GatherPass> passes, std::span<const float> radi
     return counted > 0 ? std::sqrt(sum / counted) : 0;
 }
 
-double grey_ray_error(std::span<const GatherPass> passes, std::span<const float> direct, std::span<const float> weight) {
-    const std::uint32_t n = static_cast<std::uint32_t>(direct.size());
-    std::vector<float> b(n + 1, 0), next(n + 1, 0);
-    for (std::uint32_t i = 0; i < n; ++i) b[i] = grey * direct[i];
+double grey_ray_error(std::span<const GatherPass> passes, std::span<const float> fine_direct, std::span<const float> weight) {
+    const std::uint32_t n = static_cast<std::uint32_t>(weight.size());
+    ScalarRadiosity b{std::vector<float>(n + 1, 0), std::vector<float>(fine_direct.begin(), fine_direct.end())};
+    for (float& direct : b.direct) direct *= grey;
+    b.direct.push_back(0);
+    std::vector<float> next(n + 1, 0);
     for (int sweep = 0; sweep < grey_sweeps; ++sweep) {
         tbb::parallel_for(Range(0, n, 256), [&](const Range& range) {
             for (std::uint32_t i = range.begin(); i < range.end(); ++i) {
                 double h = 0;
                 for (const GatherPass& pass : passes) h += pass_mean(pass, i, b);
-                next[i] = grey * (direct[i] + static_cast<float>(h / double(passes.size())));
+                next[i] = grey * static_cast<float>(h / double(passes.size()));
             }
         });
-        std::swap(b, next);
+        std::swap(b.indirect, next);
     }
-    return ray_error(passes, std::span(b).first(n), direct, weight);
+    b.indirect.pop_back();
+    b.direct.pop_back();
+    return ray_error(passes, b, fine_direct.first(n), weight);
 }
 
 } // namespace lueur

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include "core/scene/luminaire.h"
 #include "core/solve/ray_budget.h"
 #include "core/solve/restriction.h"
@@ -80,14 +83,32 @@ double unshot_flux_share(const State& s) {
     return s.status.emitted_lumens > 0 ? flux / s.status.emitted_lumens : 0;
 }
 
-// Equal-flux direct irradiance at coarse vertices: what the ray budget looks at.
-std::vector<float> equal_flux_direct(const State& s) {
+// Direct light reflected at the fine vertices: rho D E, one row more than vertices, the last zero.
+ChannelField reflected_direct(const State& s) {
+    const std::uint32_t count = static_cast<std::uint32_t>(s.mesh.vertices.size());
+    const int channels = s.wavelengths.size();
     const std::size_t emitters = s.direct->emitter_count();
-    std::vector<float> direct(s.mesh.coarse_vertex_count, 0);
-    for (std::size_t i = 0; i < direct.size(); ++i)
-        for (std::size_t l = 0; l < emitters; ++l)
+    ChannelField b(count + 1, channels);
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, count, 256), [&](const tbb::blocked_range<std::uint32_t>& range) {
+        for (std::uint32_t v = range.begin(); v < range.end(); ++v) {
+            const auto& rho = s.material_rho[s.material_of(s.mesh.vertices[v].surface)];
+            const float* d = s.direct->at_vertex(v);
+            for (std::size_t l = 0; l < emitters; ++l) {
+                if (d[l] == 0) continue;
+                for (int c = 0; c < channels; ++c) b[v][c] += d[l] * static_cast<float>(rho[c] * s.luminaire_exitance[l][c]);
+            }
+        }
+    });
+    return b;
+}
+
+// Equal-flux direct irradiance at all vertices: what the ray budget looks at.
+std::vector<float> equal_flux_direct(const State& s) {
+    std::vector<float> direct(s.mesh.vertices.size(), 0);
+    for (std::size_t v = 0; v < direct.size(); ++v)
+        for (std::size_t l = 0; l < s.direct->emitter_count(); ++l)
             if (s.direct->emitters()[l].area > 0)
-                direct[i] += s.coarse_direct[i * emitters + l] / s.direct->emitters()[l].area;
+                direct[v] += s.direct->at_vertex(static_cast<std::uint32_t>(v))[l] / s.direct->emitters()[l].area;
     return direct;
 }
 
@@ -99,19 +120,42 @@ std::vector<float> unburied_area(const State& s) {
 }
 
 void update_error(State& s) {
-    std::vector<float> radiosity(s.mesh.coarse_vertex_count), direct(s.mesh.coarse_vertex_count);
-    const ChannelField h = direct_of(s, 0, s.direct->emitter_count());
-    double mean_rho = 0, area = 0;
-    for (std::uint32_t i = 0; i < s.mesh.coarse_vertex_count; ++i) {
-        double b = 0, d = 0, rho = 0, y = 0;
-        const auto& material = s.material_rho[s.material_of(s.mesh.vertices[i].surface)];
-        for (int c = 0; c < s.wavelengths.size(); ++c) {
-            const double w = s.wavelengths.xyz_weight[c].y;
-            b += w * s.system.radiosity()[i][c], d += w * h[i][c];
-            rho += w * material[c], y += w;
+    const std::uint32_t coarse = s.mesh.coarse_vertex_count;
+    const auto luminous = [&](const float* channels) {
+        double y = 0;
+        for (int c = 0; c < s.wavelengths.size(); ++c) y += s.wavelengths.xyz_weight[c].y * channels[c];
+        return static_cast<float>(y);
+    };
+    ScalarRadiosity radiosity{std::vector<float>(coarse), std::vector<float>(s.mesh.vertices.size())};
+    // Direct irradiance and its reflection: luminous exitance of each luminaire, and its luminous part on each paint.
+    std::vector<double> exitance;
+    std::vector<std::vector<double>> reflected(s.material_rho.size());
+    for (const auto& e : s.luminaire_exitance) {
+        exitance.push_back(xyz_from_channels(s.wavelengths, std::span<const double>(e)).y);
+        for (std::size_t m = 0; m < s.material_rho.size(); ++m) {
+            double y = 0;
+            for (std::size_t c = 0; c < e.size(); ++c) y += s.wavelengths.xyz_weight[c].y * s.material_rho[m][c] * e[c];
+            reflected[m].push_back(y);
         }
-        radiosity[i] = static_cast<float>(b), direct[i] = static_cast<float>(d);
-        mean_rho += s.coarse_area[i] * rho / y, area += s.coarse_area[i];
+    }
+    std::vector<float> direct(coarse, 0);
+    for (std::uint32_t v = 0; v < s.mesh.vertices.size(); ++v) {
+        const float* d = s.direct->at_vertex(v);
+        const auto& on_paint = reflected[s.material_of(s.mesh.vertices[v].surface)];
+        for (std::size_t l = 0; l < exitance.size(); ++l) {
+            radiosity.direct[v] += static_cast<float>(d[l] * on_paint[l]);
+            if (v < coarse) direct[v] += static_cast<float>(d[l] * exitance[l]);
+        }
+    }
+    for (std::uint32_t v = 0; v < coarse; ++v) radiosity.indirect[v] = luminous(s.system.radiosity()[v]);
+
+    double mean_rho = 0, area = 0, white = 0;
+    for (const Xyz& w : s.wavelengths.xyz_weight) white += w.y;
+    for (std::uint32_t v = 0; v < coarse; ++v) {
+        const auto& rho = s.material_rho[s.material_of(s.mesh.vertices[v].surface)];
+        double y = 0;
+        for (std::size_t c = 0; c < rho.size(); ++c) y += s.wavelengths.xyz_weight[c].y * rho[c];
+        mean_rho += s.coarse_area[v] * y / white, area += s.coarse_area[v];
     }
     mean_rho = area > 0 ? mean_rho / area : 0;
     const double rays = ray_error(s.passes, radiosity, direct, unburied_area(s));
@@ -132,13 +176,25 @@ bool has_no_finite_solution(const State& s) {
     return true;
 }
 
-void start_gathering(State& s) {
-    const ChannelField direct = direct_of(s, 0, s.direct->emitter_count());
-    if (!s.solving || s.system.radiosity().count != s.mesh.coarse_vertex_count + 1)
-        s.system = GatherSystem(s.mesh.coarse_vertex_count, s.wavelengths.size(), unburied_area(s));
-    s.system.set_sources(rho_of_vertices(s), direct);
+void refresh_indirect(State& s) {
+    for (std::uint32_t i = 0; i < s.indirect_irradiance.count; ++i)
+        for (int c = 0; c < s.wavelengths.size(); ++c)
+            s.indirect_irradiance[i][c] = s.gathered_direct[i][c] + s.system.gathered()[i][c];
+}
+
+// New sources, paints or rays: one reflection of direct light is gathered anew, then the system holds them.
+void start_gathering(State& s, bool new_rays) {
+    const std::uint32_t n = s.mesh.coarse_vertex_count;
+    const std::atomic<bool> never{false};
+    s.gathered_direct = ChannelField(n, s.wavelengths.size());
+    s.indirect_irradiance = ChannelField(n, s.wavelengths.size());
+    apply_rows(s.passes, RayEnds::fine, reflected_direct(s), s.gathered_direct, never);
+    if (!s.solving) s.system = GatherSystem(n, s.wavelengths.size(), unburied_area(s));
+    if (new_rays) s.system.set_rows(s.passes);
+    s.system.set_sources(rho_of_vertices(s), s.gathered_direct);
     s.solving = true;
     s.status.sweeps = 0;
+    refresh_indirect(s);
 }
 
 void start_shooting(State& s) {
@@ -164,12 +220,6 @@ void start_shooting(State& s) {
 void restrict_sources(State& s) {
     s.coarse_direct = restrict_direct(s.mesh, *s.direct);
     s.coarse_area = coarse_vertex_areas(s.mesh);
-}
-
-// Sources or paints are new (or the direct light is finer): make the solver hold them.
-void start_solving(State& s) {
-    if (s.scene->solve.solver == SolverKind::shooting) start_shooting(s);
-    else start_gathering(s);
 }
 
 void settle(State& s) {
@@ -232,17 +282,17 @@ void step_gather(State& s, const std::atomic<bool>& cancel) {
     }
     const std::uint32_t pass = static_cast<std::uint32_t>(s.passes.size()) - 1;
     if (!run_slice(s.cursor, s.mesh.coarse_vertex_count, 64, cancel, [&](std::uint32_t first, std::uint32_t last) {
-            trace_gather_rays(*s.world, s.mesh, s.origins, s.buried, s.scene->solve.seed, pass, first, last, s.passes.back());
+            trace_gather_rays(*s.world, s.mesh, s.origins, {s.buried, s.direct->buried()}, s.scene->solve.seed, pass, first, last,
+                              s.passes.back());
         }))
         return;
     s.pass_open = false;
     s.status.rays += std::uint64_t(s.mesh.coarse_vertex_count) * rays_per_pass;
     s.status.rays_per_receiver = static_cast<std::uint32_t>(s.passes.size()) * rays_per_pass;
     s.status.row_entries = std::uint64_t(s.mesh.coarse_vertex_count) * s.status.rays_per_receiver;
-    if (!s.solving) start_gathering(s);
-    s.system.add_pass(s.passes);
-    s.status.sweeps = 0;
-    if (s.passes.size() >= s.passes_wanted) s.phase = SolvePhase::sweep;
+    if (s.passes.size() < s.passes_wanted) return;
+    start_gathering(s, true);
+    s.phase = SolvePhase::sweep;
 }
 
 std::uint32_t most_passes(const State& s) {
@@ -255,10 +305,6 @@ std::uint32_t most_passes(const State& s) {
 void plan_passes(State& s) {
     const std::uint32_t now = static_cast<std::uint32_t>(s.passes.size());
     if (s.rays_planned || now < s.passes_wanted) return;
-    if (now < independent_sets) {
-        s.passes_wanted = independent_sets;
-        return;
-    }
     const double target = ray_share * s.scene->solve.target_error;
     const double error = grey_ray_error(s.passes, equal_flux_direct(s), unburied_area(s));
     if (error <= target || now >= most_passes(s)) {
@@ -278,6 +324,7 @@ void step_sweep(State& s, const std::atomic<bool>& cancel) {
     if (s.system.relative_residual() > residual_target) {
         if (!s.system.sweep(s.passes, cancel)) return;
         ++s.status.sweeps;
+        refresh_indirect(s);
         if (s.system.diverged() || s.status.sweeps > most_sweeps)
             return fail(s, "the solver does not converge on this scene; a reflectance is too close to 1");
         s.status.unshot_share = unshot_flux_share(s);
@@ -307,8 +354,15 @@ void step_refine(State& s, const std::atomic<bool>& cancel) {
     publish_mesh(s);
     restrict_sources(s);
     s.refined = true;
-    start_solving(s);
-    s.phase = s.scene->solve.solver == SolverKind::shooting ? SolvePhase::shoot : SolvePhase::sweep;
+    if (s.scene->solve.solver == SolverKind::shooting) {
+        start_shooting(s);
+        s.phase = SolvePhase::shoot;
+        return;
+    }
+    // The pass of the first picture ended at vertices of the mesh before.
+    s.passes.clear();
+    s.passes_wanted = independent_sets;
+    s.phase = SolvePhase::gather;
 }
 
 void step_shoot(State& s, const std::atomic<bool>& cancel, bool one_shot) {
@@ -351,7 +405,7 @@ bool Solution::State::luminaire_is_lit(std::size_t luminaire) const {
 }
 
 const ChannelField& Solution::State::indirect() const {
-    return scene->solve.solver == SolverKind::shooting ? shooting.indirect() : system.indirect();
+    return scene->solve.solver == SolverKind::shooting ? shooting.indirect() : indirect_irradiance;
 }
 
 std::vector<float> Solution::State::ambient() const {
@@ -388,7 +442,7 @@ void Solution::update(std::shared_ptr<const Scene> scene, SolveFrom stale) {
         s.solving = false; // nothing of the old radiosities can be used
     if (s.scene->solve.target_error != before.target_error || s.scene->solve.max_rays != before.max_rays) {
         s.passes.clear(); // the number of rays follows from the settings, never from what was there before
-        s.passes_wanted = 1;
+        s.passes_wanted = s.refined ? independent_sets : 1;
         s.rays_planned = false;
         s.pass_open = false;
         s.solving = false;
@@ -410,9 +464,7 @@ void Solution::update(std::shared_ptr<const Scene> scene, SolveFrom stale) {
         s.phase = SolvePhase::gather;
         return;
     }
-    const bool fresh = !s.solving;
-    start_gathering(s);
-    if (fresh) s.system.set_rows(s.passes);
+    start_gathering(s, !s.solving);
     s.phase = SolvePhase::sweep;
 }
 

@@ -43,6 +43,8 @@ struct Solution::State {
     std::vector<std::optional<LuminaireIndex>> object_luminaire;
 
     GatherSystem system;
+    ChannelField gathered_direct;                // irradiance at coarse vertices after one reflection of direct light
+    ChannelField indirect_irradiance;            // gathered_direct + W U, refreshed after sweeps
     Shooting shooting;
     bool solving = false; // system or shooting hold this scene's sources
     bool edit_open = true; // last_edit_seconds is still to be set

@@ -16,6 +16,7 @@ constexpr int shadow_points = 36;    // in a penumbra
 constexpr int probe_points = 6;      // settle the fully lit and the fully dark
 constexpr float far_diameters = 4;   // from here on points replace the exact formula
 constexpr std::size_t most_exact_triangles = 64;
+constexpr std::size_t few_triangles = 4; // no dearer than the points
 
 // cos cos / r^2 from a receiver to a point of an emitter; 0 when one is behind the other.
 float kernel(glm::vec3 origin, glm::vec3 normal, const EmitterPoint& p) {
@@ -127,7 +128,8 @@ float direct_form_factor(const World& world, const Emitter& emitter, glm::vec3 o
 
     const bool wholly_seen = all_facing && seen == facing;
     const float distance = glm::length(emitter.centre - origin);
-    const bool exact = distance < far_diameters * 2 * emitter.radius && emitter.triangles.size() <= most_exact_triangles;
+    const bool near = distance < far_diameters * 2 * emitter.radius;
+    const bool exact = emitter.triangles.size() <= (near ? most_exact_triangles : few_triangles);
     if (exact && wholly_seen) return static_cast<float>(exact_form_factor(emitter, origin, normal));
 
     double visible = 0, all = 0;

@@ -9,9 +9,8 @@ namespace {
 constexpr int burial_rays = 16;
 constexpr int most_back_faces = 4; // a quarter
 
-// One of the three vertices, by interpolation weight, among those that are not buried.
-std::uint32_t pick_vertex(const glm::uvec3& v, const Hit& hit, const std::vector<std::uint8_t>& buried, float u) {
-    float w[3] = {1 - hit.b1 - hit.b2, hit.b1, hit.b2};
+// One of three vertices, by interpolation weight, among those that are not buried.
+std::uint32_t pick_vertex(const glm::uvec3& v, glm::vec3 w, const std::vector<std::uint8_t>& buried, float u) {
     float sum = 0;
     for (int k = 0; k < 3; ++k) {
         if (buried[v[k]] || w[k] < 0) w[k] = 0;
@@ -40,32 +39,30 @@ void find_buried(const World& world, const Mesh& mesh, const std::vector<glm::ve
 }
 
 GatherPass make_gather_pass(const Mesh& mesh) {
-    GatherPass pass;
-    pass.ends.assign(std::size_t(mesh.coarse_vertex_count) * rays_per_pass, mesh.coarse_vertex_count);
-    return pass;
+    const std::size_t rays = std::size_t(mesh.coarse_vertex_count) * rays_per_pass;
+    return {std::vector<std::uint32_t>(rays, mesh.coarse_vertex_count),
+            std::vector<std::uint32_t>(rays, static_cast<std::uint32_t>(mesh.vertices.size()))};
 }
 
-void trace_gather_rays(const World& world, const Mesh& mesh, const std::vector<glm::vec3>& origins,
-                       const std::vector<std::uint8_t>& buried, std::uint32_t seed, std::uint32_t pass, std::uint32_t first,
-                       std::uint32_t last, GatherPass& out) {
-    const std::uint32_t none = mesh.coarse_vertex_count;
+void trace_gather_rays(const World& world, const Mesh& mesh, const std::vector<glm::vec3>& origins, const Buried& buried,
+                       std::uint32_t seed, std::uint32_t pass, std::uint32_t first, std::uint32_t last, GatherPass& out) {
     const std::uint32_t key = hash(hash(seed, pass), 0x5bd1e995u); // of the choices of vertices
+    const std::uint32_t first_point = pass / independent_sets * rays_per_pass;
     for (std::uint32_t i = first; i < last; ++i) {
-        std::uint32_t* ends = out.ends.data() + std::size_t(i) * rays_per_pass;
-        if (buried[i]) {
-            std::fill(ends, ends + rays_per_pass, none);
-            continue;
-        }
+        if (buried.coarse[i]) continue; // all its rays stay outside
         const Frame frame(mesh.vertices[i].normal);
         const glm::vec2 offset = random_offset(hash(seed, pass % independent_sets), i);
-        const std::uint32_t first_point = pass / independent_sets * rays_per_pass;
         for (std::uint32_t k = 0; k < rays_per_pass; ++k) {
             const Hit hit = world.closest({origins[i], frame.world(cosine_direction(r2_point(first_point + k, offset)))});
-            ends[k] = none;
             if (hit.element == no_index) continue;
-            const float u = unit_float(hash(key, i * rays_per_pass + k));
-            const std::uint32_t v = pick_vertex(mesh.nodes[hit.element].vertices, hit, buried, u);
-            if (v != no_index) ends[k] = v;
+            const std::size_t ray = std::size_t(i) * rays_per_pass + k;
+            const std::uint32_t bits = hash(key, static_cast<std::uint32_t>(ray));
+            const glm::vec3 weights(1 - hit.b1 - hit.b2, hit.b1, hit.b2);
+            const std::uint32_t end = pick_vertex(mesh.nodes[hit.element].vertices, weights, buried.coarse, unit_float(bits));
+            if (end != no_index) out.ends[ray] = end;
+            const Located fine = locate(mesh, hit.element, hit.b1, hit.b2);
+            const std::uint32_t fine_end = pick_vertex(fine.vertices, fine.weights, buried.fine, unit_float(hash(bits)));
+            if (fine_end != no_index) out.fine_ends[ray] = fine_end;
         }
     }
 }

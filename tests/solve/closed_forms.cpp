@@ -119,7 +119,7 @@ TEST_P(CubeOfSixWalls, MeansOfTheWalls) {
     const std::vector<float> areas = vertex_areas(mesh);
     std::vector<GatherPass> traced(16, make_gather_pass(mesh));
     for (std::uint32_t p = 0; p < traced.size(); ++p)
-        trace_gather_rays(world, mesh, origins, buried, 1, p, 0, mesh.coarse_vertex_count, traced[p]);
+        trace_gather_rays(world, mesh, origins, {buried, buried}, 1, p, 0, mesh.coarse_vertex_count, traced[p]);
     std::array<std::array<double, 6>, 6> F{};
     std::array<double, 6> area{};
     for (std::uint32_t v = 0; v < mesh.coarse_vertex_count; ++v) {
@@ -140,7 +140,7 @@ TEST_P(CubeOfSixWalls, MeansOfTheWalls) {
     // The same factors as rows of six receivers, to 1/16000.
     const int passes = 500, rays = passes * rays_per_pass;
     std::vector<GatherPass> rows(passes);
-    for (GatherPass& pass : rows) pass.ends.assign(6 * rays_per_pass, 6);
+    for (GatherPass& pass : rows) pass.ends.assign(6 * rays_per_pass, 6); // fine ends: not used by sweeps
     ChannelField rho(6, 1), direct(6, 1);
     for (int i = 0; i < 6; ++i) {
         double share = 0;

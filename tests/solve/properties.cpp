@@ -46,7 +46,7 @@ TEST(Gathering, ResidualNeverGrows) {
     EXPECT_LT(before, 1e-4);
     // The residual it says is the residual there is: B - rho W B = b.
     ChannelField wb(rho.count, 31);
-    ASSERT_TRUE(apply_rows(s.passes, system.radiosity(), wb, never));
+    ASSERT_TRUE(apply_rows(s.passes, RayEnds::coarse, system.radiosity(), wb, never));
     double square = 0, norm = 0;
     for (std::uint32_t i = 0; i < rho.count; ++i)
         for (int c = 0; c < 31; ++c) {

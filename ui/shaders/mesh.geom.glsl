@@ -7,18 +7,18 @@ layout(triangle_strip, max_vertices = 3) out;
 uniform vec2 viewport_size;
 
 in Point {
+    vec4 light;
+#ifdef TEXTURED
     vec3 reflected;
-    vec3 emitted;
     vec2 uv;
-    float unshot;
-    flat float selected;
+#endif
 } corner[];
 out Point {
+    vec4 light;
+#ifdef TEXTURED
     vec3 reflected;
-    vec3 emitted;
     vec2 uv;
-    float unshot;
-    flat float selected;
+#endif
 } point;
 noperspective out vec3 edge_distance;
 
@@ -37,11 +37,11 @@ void main() {
     for (int i = 0; i < 3; ++i) {
         gl_Position = gl_in[i].gl_Position;
         gl_PrimitiveID = gl_PrimitiveIDIn;
+        point.light = corner[i].light;
+#ifdef TEXTURED
         point.reflected = corner[i].reflected;
-        point.emitted = corner[i].emitted;
         point.uv = corner[i].uv;
-        point.unshot = corner[i].unshot;
-        point.selected = corner[i].selected;
+#endif
         edge_distance = behind ? vec3(1e6) : vec3(i == 0 ? height.x : 0.0, i == 1 ? height.y : 0.0, i == 2 ? height.z : 0.0);
         EmitVertex();
     }

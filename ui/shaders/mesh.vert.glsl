@@ -8,21 +8,30 @@ layout(location = 5) in float unshot;   // lm m^-2
 
 uniform mat4 clip_from_world;
 uniform uint selected_object;
+uniform mat3 rgb_from_xyz;
+uniform float scale; // 1 / MAXDISPLAY
 
+// As few numbers a corner as there can be: setting up small triangles is what a software renderer spends its time on. The matrix is
+// linear, so it may as well be applied at the corners.
 out Point {
-    vec3 reflected;
-    vec3 emitted;
+    vec4 light; // linear sRGB / MAXDISPLAY (or the unshot exitance in red); alpha as mesh.frag.glsl says
+#ifdef TEXTURED
+    vec3 reflected; // linear sRGB / MAXDISPLAY, to be multiplied by the texel; not in `light`
     vec2 uv;
-    float unshot;
-    flat float selected;
+#endif
 } point;
 
 void main() {
     gl_Position = clip_from_world * vec4(position, 1);
-    point.reflected = reflected;
-    point.emitted = emitted;
+    float over = object == selected_object ? 3.0 : 1.0;
+#if defined(UNSHOT)
+    point.light = vec4(max(unshot, 0.0), 0.0, 0.0, over);
+#elif defined(TEXTURED)
+    point.light = vec4(rgb_from_xyz * emitted * scale, over);
+    point.reflected = rgb_from_xyz * reflected * scale;
     point.uv = uv;
-    point.unshot = unshot;
-    point.selected = object == selected_object ? 1.0 : 0.0;
+#else
+    point.light = vec4(rgb_from_xyz * (reflected + emitted) * scale, over);
+#endif
 }
 )glsl"
