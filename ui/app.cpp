@@ -425,7 +425,7 @@ void App::frame() {
     const double start = window_->now();
     window_->begin_frame();
     draw();
-    window_->end_frame();
+    window_->end_frame({view_.picture.framebuffer, view_.picture.width, view_.picture.height, view_.x, view_.y, view_.width, view_.height});
     log_facts();
     if (modified_revision_ != document_.revision()) {
         modified_revision_ = document_.revision();
@@ -434,8 +434,9 @@ void App::frame() {
     const auto name = document_.file().empty() ? std::string("untitled") : document_.file().filename().string();
     window_->set_title(name + (modified_ ? " *" : "") + " - Lueur");
     if (frame_log_) {
-        frame_log_ << fmt::format("{:.4f} frame_ms {:.2f} mesh_ms {:.2f} samples {} solving {}\n", start, 1000 * (window_->now() - start),
-                                  view_.drew_mesh ? 1000 * view_.last_mesh_seconds : 0.0, view_.refined ? 4 : 1,
+        frame_log_ << fmt::format("{:.4f} frame_ms {:.2f} picture_ms {:.2f} picture {}x{} samples {} solving {}\n", start,
+                                  1000 * (window_->now() - start), view_.drew_mesh ? 1000 * view_.draw_seconds : 0.0,
+                                  view_.picture.width, view_.picture.height, view_.picture.samples,
                                   snapshot_->status.settled ? 0 : 1)
                    << std::flush;
     }

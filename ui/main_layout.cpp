@@ -13,7 +13,7 @@ namespace lueur {
 namespace {
 
 constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                                   ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav;
+                                   ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoBackground;
 
 struct Area {
     float x, y, width, height;
@@ -23,6 +23,11 @@ bool begin(const char* name, const Area& area, ImGuiWindowFlags more = 0) {
     ImGui::SetNextWindowPos({area.x, area.y});
     ImGui::SetNextWindowSize({area.width, area.height});
     return ImGui::Begin(name, nullptr, fixed | more);
+}
+
+// The ground is the window's own (Window::end_frame); a line is all that parts the panels.
+void divide(const Area& area) {
+    ImGui::GetBackgroundDrawList()->AddRectFilled({area.x, area.y}, {area.x + area.width, area.y + area.height}, packed(colours::backdrop));
 }
 
 enum class Across { columns, rows };
@@ -35,7 +40,7 @@ void splitter(const char* name, const Area& line, Across across, float& value, f
     (across == Across::columns ? area.width : area.height) = grip;
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
-    begin(name, area, ImGuiWindowFlags_NoBackground);
+    begin(name, area);
     ImGui::InvisibleButton("##grip", {std::max(area.width, 1.0f), std::max(area.height, 1.0f)});
     const bool active = ImGui::IsItemActive(), hovered = ImGui::IsItemHovered();
     if (active || hovered) {
@@ -137,6 +142,10 @@ std::vector<Edit> main_layout(const Document& document, const Snapshot& snapshot
         begin("##probe", {all.x + left - probe_width, all.y + all.height - strip, probe_width, strip}, ImGuiWindowFlags_NoScrollWithMouse);
         probe_readout(document, state);
         ImGui::End();
+        divide({all.x + left, all.y, gap, all.height});
+        divide({all.x, all.y + all.height - strip - gap, left, gap});
+        divide({all.x + left - probe_width - gap, all.y + all.height - strip, gap, strip});
+        divide({x, all.y + all.height - lower - gap, column, gap});
         splitter("##split_column", {all.x + left, all.y, gap, all.height}, Across::columns, layout.column_width, 260,
                  0.6f * all.width / scale, scale);
         splitter("##split_strip", {all.x, all.y + all.height - strip - gap, left, gap}, Across::rows, layout.strip_height, 100,
@@ -154,17 +163,17 @@ std::vector<Edit> main_layout(const Document& document, const Snapshot& snapshot
 
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
     begin("##picture", {all.x, all.y + bar, left, all.height - bar - strip - gap},
-          ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoBackground);
+          ImGuiWindowFlags_NoScrollWithMouse);
     if (auto edit = draw_viewport()) edits.push_back(std::move(*edit));
     ImGui::End();
     ImGui::PopStyleVar();
 
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {12 * scale, 5 * scale});
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4(0.125f, 0.125f, 0.125f, 1));
+    ImGui::GetBackgroundDrawList()->AddRectFilled({all.x, all.y + all.height}, {all.x + all.width, all.y + all.height + status_height},
+                                                  packed({0.125f, 0.125f, 0.125f, 1}));
     begin("##status", {all.x, all.y + all.height, all.width, status_height}, ImGuiWindowFlags_NoScrollWithMouse);
     status_line(document, snapshot, state);
     ImGui::End();
-    ImGui::PopStyleColor();
     ImGui::PopStyleVar();
     return edits;
 }

@@ -1,6 +1,7 @@
 #include "ui/renderer.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <numeric>
@@ -45,7 +46,7 @@ glm::mat3 srgb_matrix() { return rgb_from_xyz(srgb); }
 
 // What the mesh pass shows; all else is the display pass's business.
 bool same_mesh_pass(const RenderParams& a, const RenderParams& b) {
-    return a.width == b.width && a.height == b.height && a.samples == b.samples && a.camera == b.camera && a.view == b.view &&
+    return a.width == b.width && a.height == b.height && a.camera == b.camera && a.view == b.view &&
            a.selected == b.selected && a.highlight_shooting == b.highlight_shooting && a.line_width == b.line_width;
 }
 
@@ -60,6 +61,8 @@ std::string defines_of(unsigned variant) {
     if (variant & of_unshot) text += "#define UNSHOT\n";
     return text;
 }
+
+constexpr std::array resolution_steps{1.0, 0.8, 0.65, 0.5}; // of the picture's edges
 
 double seconds_now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -268,20 +271,22 @@ void Renderer::make_target(int width, int height, int samples) {
     stale_ = true;
 }
 
-GLuint Renderer::draw(const RenderParams& params) {
+Renderer::Picture Renderer::draw(const RenderParams& params) {
     drew_mesh_ = false;
-    make_target(params.width, params.height, params.samples);
+    const bool many = params.still || many_samples_are_cheap();
+    const double share = many ? 1.0 : resolution_steps[resolution_];
+    make_target(std::max(8, static_cast<int>(std::lround(share * params.width))),
+                std::max(8, static_cast<int>(std::lround(share * params.height))), many ? 4 : 1);
+    const double start = seconds_now();
+    bool drew = false;
     const double asked = params.display.max_display;
-    if (stale_ || !mesh_drawn_ || !same_mesh_pass(*mesh_drawn_, params)) {
-        const double start = seconds_now();
+    if (stale_ || !mesh_drawn_ || drawn_target_ != target_ || !same_mesh_pass(*mesh_drawn_, params)) {
         draw_mesh(params, asked);
         drawn_max_display_ = asked;
+        drawn_target_ = target_;
         mesh_drawn_ = params;
         display_drawn_.reset();
-        glFinish(); // the time is worth having: it decides how many samples the next frame gets
-        mesh_seconds_ = seconds_now() - start;
-        (params.samples > 1 ? seconds_of_many_ : seconds_of_one_) = mesh_seconds_;
-        drew_mesh_ = true;
+        drew = drew_mesh_ = true;
         stale_ = false;
         largest_seen_ = -1;
     }
@@ -293,21 +298,37 @@ GLuint Renderer::draw(const RenderParams& params) {
     if (!display_drawn_ || !(display_drawn_->display == params.display) || display_drawn_->unshot_top != params.unshot_top) {
         draw_display(params, max_display);
         display_drawn_ = params;
+        drew = true;
+    }
+    if (drew) {
+        glFinish(); // the time is worth having: it decides what the next frame gets
+        draw_seconds_ = seconds_now() - start;
+        if (drew_mesh_ && mesh_) {
+            (many ? seconds_of_many_ : seconds_of_one_) = draw_seconds_;
+            if (!many) adapt_resolution(draw_seconds_);
+        }
     }
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    return target_->shown;
+    return {target_->display_pass, target_->shown, target_->width, target_->height, target_->samples};
 }
 
 bool Renderer::many_samples_are_cheap() const {
-    constexpr double budget = 0.018; // s of a frame
-    if (seconds_of_many_ > 0 && seconds_of_one_ > 0) // what was slow once may be quick with another scene or size
-        return std::min(seconds_of_many_, 3 * seconds_of_one_) < budget;
-    return seconds_of_many_ > 0 ? seconds_of_many_ < budget : seconds_of_one_ < budget / 3;
+    constexpr double budget = 0.012; // s of a frame
+    return resolution_ == 0 && seconds_of_many_ > 0 && std::min(seconds_of_many_, 4 * std::max(seconds_of_one_, 1e-4)) < budget;
+}
+
+// Moving pictures keep to their share of a frame of 40 ms, at the price of sharpness; a still one is drawn in full.
+void Renderer::adapt_resolution(double seconds) {
+    constexpr double too_long = 0.022, short_enough = 0.008; // s
+    if (seconds > too_long && resolution_ + 1 < resolution_steps.size())
+        ++resolution_;
+    else if (seconds < short_enough && resolution_ > 0)
+        --resolution_;
 }
 
 void Renderer::draw_mesh(const RenderParams& params, double max_display) {
     glBindFramebuffer(GL_FRAMEBUFFER, target_->mesh_pass);
-    glViewport(0, 0, params.width, params.height);
+    glViewport(0, 0, target_->width, target_->height);
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_BLEND);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
@@ -316,7 +337,7 @@ void Renderer::draw_mesh(const RenderParams& params, double max_display) {
     glClearDepth(1);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     if (!mesh_ || !scene_) return;
-    if (params.samples > 1) glEnable(GL_MULTISAMPLE);
+    if (target_->samples > 1) glEnable(GL_MULTISAMPLE);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
     glEnable(GL_CULL_FACE); // walls are seen from their lit side only, so that one looks into a room from outside
@@ -339,7 +360,7 @@ void Renderer::draw_mesh(const RenderParams& params, double max_display) {
         glUniform1ui(place(program, "highlighted"), shooting_);
         const glm::vec3 accent = decoded({colours::accent.x, colours::accent.y, colours::accent.z});
         glUniform3fv(place(program, "highlight_rgb"), 1, glm::value_ptr(accent));
-        glUniform2f(place(program, "viewport_size"), static_cast<float>(params.width), static_cast<float>(params.height));
+        glUniform2f(place(program, "viewport_size"), static_cast<float>(target_->width), static_cast<float>(target_->height));
         glUniform1f(place(program, "line_width"), params.line_width);
         glUniform1i(place(program, "texels"), 0);
         glUniform1i(place(program, "patches"), 1);
@@ -371,14 +392,14 @@ void Renderer::draw_mesh(const RenderParams& params, double max_display) {
 
 void Renderer::draw_display(const RenderParams& params, double max_display) {
     glBindFramebuffer(GL_FRAMEBUFFER, target_->display_pass);
-    glViewport(0, 0, params.width, params.height);
+    glViewport(0, 0, target_->width, target_->height);
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_BLEND);
     glDisable(GL_DEPTH_TEST);
-    const GLuint program = params.samples > 1 ? display_many_ : display_one_;
+    const GLuint program = target_->samples > 1 ? display_many_ : display_one_;
     glUseProgram(program);
     glActiveTexture(GL_TEXTURE0);
-    glBindTexture(params.samples > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D, target_->seen);
+    glBindTexture(target_->samples > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D, target_->seen);
     glUniform1i(place(program, "seen"), 0);
     glUniform1f(place(program, "rescale"), static_cast<float>(drawn_max_display_ / max_display));
     int clip_rule = 0;

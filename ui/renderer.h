@@ -22,7 +22,7 @@ namespace lueur {
 
 struct RenderParams {
     int width = 0, height = 0; // pixels
-    int samples = 1;           // of a pixel: 1 or 4
+    bool still = true;         // nothing moves: worth four samples a pixel. Else as much as fits into a frame
     Camera camera;
     DisplaySettings display;
     ViewMode view = ViewMode::shaded;
@@ -38,11 +38,16 @@ public:
 
     // Uploads what is new in the snapshot. An empty mesh pointer draws the backdrop.
     void set_snapshot(const Snapshot& snapshot);
-    // Draws what is stale and returns the texture with the displayed picture, its first row the lowest.
-    GLuint draw(const RenderParams& params);
+    // Draws what is stale. The picture is then in the framebuffer returned, its first row the lowest; it may have fewer pixels than
+    // were asked for while things move, and is to be stretched.
+    struct Picture {
+        GLuint framebuffer = 0, texture = 0;
+        int width = 0, height = 0;
+        int samples = 1;
+    };
+    Picture draw(const RenderParams& params);
 
-    double mesh_seconds() const { return mesh_seconds_; } // the last time the mesh was drawn
-    bool many_samples_are_cheap() const;                   // 4 a pixel fit into a frame while things move
+    double draw_seconds() const { return draw_seconds_; } // of the last call of draw that drew
     bool drew_mesh() const { return drew_mesh_; }         // in the last call of draw
     const Bounds& bounds() const { return bounds_; }
 
@@ -66,6 +71,8 @@ private:
     void make_target(int width, int height, int samples);
     void draw_mesh(const RenderParams& params, double max_display);
     void draw_display(const RenderParams& params, double max_display);
+    bool many_samples_are_cheap() const;
+    void adapt_resolution(double seconds);
     double largest_component_seen();
 
     std::map<unsigned, GlProgram> mesh_programs_; // by their variants, see renderer.cpp
@@ -79,6 +86,7 @@ private:
     std::vector<MaterialIndex> surface_materials_;
     Target targets_[2]; // of one sample and of many
     Target* target_ = nullptr;
+    const Target* drawn_target_ = nullptr; // that holds the last mesh pass
     Bounds bounds_;
 
     std::shared_ptr<const Scene> scene_;
@@ -88,7 +96,8 @@ private:
     bool stale_ = true;
     std::optional<RenderParams> mesh_drawn_, display_drawn_;
     double drawn_max_display_ = 1, largest_seen_ = 0;
-    double mesh_seconds_ = 0, seconds_of_one_ = 0, seconds_of_many_ = 0;
+    double draw_seconds_ = 0, seconds_of_one_ = 0, seconds_of_many_ = 0;
+    std::size_t resolution_ = 0; // of moving pictures, an index into the steps in renderer.cpp
     bool drew_mesh_ = false;
 };
 

@@ -187,16 +187,12 @@ std::optional<Edit> viewport(const Document& document, const Snapshot& snapshot,
     params.line_width = std::max(1.0f, std::round(1.2f * state.scale));
     params.highlight_shooting = scene.solve.solver == SolverKind::shooting && !snapshot.status.settled;
     if (known && !snapshot.status.settled && !state.paused) view.last_motion = now;
-    // Many samples when they are cheap, or once nothing moves any more.
-    params.samples = renderer.many_samples_are_cheap() || now - view.last_motion > still_after ? 4 : 1;
-    view.refined = params.samples > 1;
-    const GLuint picture = renderer.draw(params);
+    params.still = now - view.last_motion > still_after;
+    view.picture = renderer.draw(params);
+    view.refined = view.picture.samples > 1;
     view.drew_mesh = renderer.drew_mesh();
-    view.last_mesh_seconds = renderer.mesh_seconds();
+    view.draw_seconds = renderer.draw_seconds();
 
-    const ImVec2 low{static_cast<float>(view.x), static_cast<float>(view.y)};
-    const ImVec2 high{low.x + static_cast<float>(view.width), low.y + static_cast<float>(view.height)};
-    ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(picture)), low, high, {0, 1}, {1, 0});
     if (!known || !snapshot.mesh) busy_note(state, view, snapshot);
     if (state.view == ViewMode::unshot) unshot_legend(state, view);
     if (state.layout.probe_at_cursor && state.hovered) {

@@ -21,7 +21,8 @@ struct ViewportState {
     bool flying = false;             // keys are held: draw on
     double last_motion = -1e9;       // s; a still picture gets more samples
     bool refined = false;            // it has them
-    double last_mesh_seconds = 0;
+    Renderer::Picture picture;       // to be put under the panels by the window
+    double draw_seconds = 0;
     bool drew_mesh = false;
     std::shared_ptr<const Field> unshot_field; // whose largest unshot value has been looked for
     std::optional<Camera> home;      // the scene's own camera

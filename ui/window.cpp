@@ -152,14 +152,22 @@ void Window::begin_frame() {
     ImGui::NewFrame();
 }
 
-void Window::end_frame() {
+void Window::end_frame(const Underlay& under) {
     ImGui::Render();
     int w = 0, h = 0;
     glfwGetFramebufferSize(window_, &w, &h);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glViewport(0, 0, w, h);
-    glClearColor(colours::backdrop.x, colours::backdrop.y, colours::backdrop.z, 1);
+    glDisable(GL_SCISSOR_TEST);
+    glClearColor(colours::panel.x, colours::panel.y, colours::panel.z, 1); // the panels' windows draw no ground of their own
     glClear(GL_COLOR_BUFFER_BIT);
+    if (under.framebuffer) { // copied and not drawn by ImGui: a software renderer blends a million pixels for nothing
+        glBindFramebuffer(GL_READ_FRAMEBUFFER, under.framebuffer);
+        const bool same = under.from_width == under.width && under.from_height == under.height;
+        glBlitFramebuffer(0, 0, under.from_width, under.from_height, under.x, h - under.y - under.height, under.x + under.width,
+                          h - under.y, GL_COLOR_BUFFER_BIT, same ? GL_NEAREST : GL_LINEAR);
+        glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    }
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
     glfwSwapBuffers(window_);
 }

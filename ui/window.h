@@ -47,7 +47,13 @@ public:
     void set_scale(double scale); // the user's own, on top of the monitor's
     void set_title(const std::string& title);
     void begin_frame();
-    void end_frame(); // draws and shows
+    // What lies under the panels: a framebuffer stretched over a part of the window, in pixels from the top left.
+    struct Underlay {
+        unsigned framebuffer = 0;
+        int from_width = 0, from_height = 0;
+        int x = 0, y = 0, width = 0, height = 0;
+    };
+    void end_frame(const Underlay& underlay); // draws and shows
 
     float scale() const { return scale_; } // pixels for each unscaled pixel
     const Fonts& fonts() const { return fonts_; }

@@ -108,25 +108,30 @@ Camera front_camera() {
 RenderParams params_for(const Camera& camera, const DisplaySettings& display, int samples) {
     RenderParams params;
     params.width = params.height = pixels;
-    params.samples = samples;
+    params.still = samples > 1;
     params.camera = camera;
     params.display = display;
     return params;
 }
 
-std::vector<std::array<std::uint8_t, 4>> read_back(GLuint texture) {
-    std::vector<std::array<std::uint8_t, 4>> result(pixels * pixels);
-    glBindTexture(GL_TEXTURE_2D, texture);
-    glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_UNSIGNED_BYTE, result.data());
-    return result;
-}
+// What was drawn; a moving picture may have fewer pixels than were asked for. Rows from the bottom, as OpenGL keeps them.
+struct Shown {
+    int size = 0;
+    std::vector<std::array<std::uint8_t, 4>> rgba;
+    const std::array<std::uint8_t, 4>& at(const Camera& camera, const glm::dvec3& point) const {
+        const auto clip = clip_from_world(camera, 1, 0.1, 1000) * glm::dvec4(point, 1);
+        const auto x = static_cast<int>((0.5 + 0.5 * clip.x / clip.w) * size), y = static_cast<int>((0.5 + 0.5 * clip.y / clip.w) * size);
+        return rgba.at(static_cast<std::size_t>(y * size + x));
+    }
+};
 
-// The pixel in which a point lies; rows from the bottom, as OpenGL keeps them.
-std::size_t pixel_of(const Camera& camera, const glm::dvec3& point) {
-    const auto clip = clip_from_world(camera, 1, 0.1, 1000) * glm::dvec4(point, 1);
-    const auto x = static_cast<std::size_t>((0.5 + 0.5 * clip.x / clip.w) * pixels);
-    const auto y = static_cast<std::size_t>((0.5 + 0.5 * clip.y / clip.w) * pixels);
-    return y * pixels + x;
+Shown read_back(const Renderer::Picture& picture) {
+    EXPECT_EQ(picture.width, picture.height);
+    Shown shown{picture.width, {}};
+    shown.rgba.resize(static_cast<std::size_t>(picture.width * picture.height));
+    glBindTexture(GL_TEXTURE_2D, picture.texture);
+    glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_UNSIGNED_BYTE, shown.rgba.data());
+    return shown;
 }
 
 // Radiances from the darkest to far over MAXDISPLAY, of all chromaticities, some outside of sRGB.
@@ -143,11 +148,11 @@ std::vector<glm::vec3> random_radiances(std::uint32_t seed, double max_display) 
 }
 
 void expect_same(const Chart& chart, const Camera& camera, const DisplaySettings& display,
-                 const std::vector<std::array<std::uint8_t, 4>>& shown) {
+                 const Shown& shown) {
     const auto expected = display_image({side, static_cast<int>(chart.xyz.size()) / side, chart.xyz}, display);
     for (std::size_t i = 0; i < chart.xyz.size(); ++i)
         for (std::size_t c = 0; c < 3; ++c) {
-            const int difference = std::abs(shown[pixel_of(camera, chart.centres[i])][c] - expected.rgb[i][c]);
+            const int difference = std::abs(shown.at(camera, chart.centres[i])[c] - expected.rgb[i][c]);
             ASSERT_LE(difference, 1) << "patch " << i << " component " << c << " XYZ " << chart.xyz[i].x << " " << chart.xyz[i].y
                                      << " " << chart.xyz[i].z << " clip " << to_string(display.clip);
         }
@@ -180,7 +185,7 @@ TEST_F(ShaderTest, MirroredCameraShowsTheSameLitSides) {
     auto camera = front_camera();
     camera.mirrored = true;
     const DisplaySettings display;
-    expect_same(chart, camera, display, read_back(renderer_->draw(params_for(camera, display, 1))));
+    expect_same(chart, camera, display, read_back(renderer_->draw(params_for(camera, display, 4))));
 }
 
 TEST_F(ShaderTest, BacksAreSeenThrough) {
@@ -188,9 +193,9 @@ TEST_F(ShaderTest, BacksAreSeenThrough) {
     renderer_->set_snapshot(chart.snapshot);
     auto camera = front_camera();
     camera.position.z = -camera.position.z;
-    const auto shown = read_back(renderer_->draw(params_for(camera, {}, 1)));
+    const auto shown = read_back(renderer_->draw(params_for(camera, {}, 4)));
     const auto backdrop = static_cast<int>(std::lround(255 * colours::backdrop.x));
-    for (const auto& pixel : shown) ASSERT_EQ(pixel[0], backdrop);
+    for (const auto& pixel : shown.rgba) ASSERT_EQ(pixel[0], backdrop);
 }
 
 TEST_F(ShaderTest, TextureMultipliesWhatIsReflected) {
@@ -207,7 +212,7 @@ TEST_F(ShaderTest, TextureMultipliesWhatIsReflected) {
         xyz = glm::vec3(xyz_from_rgb(srgb) * (rgb * glm::dvec3(0.5, 2.0, 1.5)));
     }
     const DisplaySettings display;
-    expect_same(chart, front_camera(), display, read_back(renderer_->draw(params_for(front_camera(), display, 1))));
+    expect_same(chart, front_camera(), display, read_back(renderer_->draw(params_for(front_camera(), display, 4))));
 }
 
 TEST_F(ShaderTest, AnotherGammaAloneDoesNotDrawTheMeshAgain) {
@@ -215,11 +220,11 @@ TEST_F(ShaderTest, AnotherGammaAloneDoesNotDrawTheMeshAgain) {
     renderer_->set_snapshot(chart.snapshot);
     DisplaySettings display;
     display.curve = TransferCurve::gamma;
-    renderer_->draw(params_for(front_camera(), display, 1));
+    renderer_->draw(params_for(front_camera(), display, 4));
     EXPECT_TRUE(renderer_->drew_mesh());
     display.gamma = 1.7;
     display.max_display = 140;
-    const auto shown = read_back(renderer_->draw(params_for(front_camera(), display, 1)));
+    const auto shown = read_back(renderer_->draw(params_for(front_camera(), display, 4)));
     EXPECT_FALSE(renderer_->drew_mesh());
     expect_same(chart, front_camera(), display, shown);
 }
@@ -227,14 +232,14 @@ TEST_F(ShaderTest, AnotherGammaAloneDoesNotDrawTheMeshAgain) {
 TEST_F(ShaderTest, SelectedObjectIsOutlinedAndKeepsItsColour) {
     const auto chart = make_chart(std::vector<glm::vec3>(side * side, glm::vec3(20)));
     renderer_->set_snapshot(chart.snapshot);
-    auto params = params_for(front_camera(), {}, 1);
+    auto params = params_for(front_camera(), {}, 4);
     const auto plain = read_back(renderer_->draw(params));
     const std::size_t middle = side * (side / 2) + side / 2;
     params.selected = ObjectIndex(middle);
     const auto outlined = read_back(renderer_->draw(params));
-    EXPECT_EQ(outlined[pixel_of(params.camera, chart.centres[middle])], plain[pixel_of(params.camera, chart.centres[middle])]);
+    EXPECT_EQ(outlined.at(params.camera, chart.centres[middle]), plain.at(params.camera, chart.centres[middle]));
     std::size_t changed = 0;
-    for (std::size_t i = 0; i < plain.size(); ++i) changed += plain[i] != outlined[i];
+    for (std::size_t i = 0; i < plain.rgba.size(); ++i) changed += plain.rgba[i] != outlined.rgba[i];
     EXPECT_GT(changed, 40u);
     EXPECT_LT(changed, 400u) << "an outline of a patch of some 15 pixels, no more";
 }
@@ -242,14 +247,14 @@ TEST_F(ShaderTest, SelectedObjectIsOutlinedAndKeepsItsColour) {
 TEST_F(ShaderTest, ElementsViewDrawsLinesAndUnshotViewItsScale) {
     auto chart = make_chart(std::vector<glm::vec3>(side * side, glm::vec3(20)));
     renderer_->set_snapshot(chart.snapshot);
-    auto params = params_for(front_camera(), {}, 1);
+    auto params = params_for(front_camera(), {}, 4);
     const auto shaded = read_back(renderer_->draw(params));
     params.view = ViewMode::elements;
     const auto lines = read_back(renderer_->draw(params));
     std::size_t changed = 0;
-    for (std::size_t i = 0; i < shaded.size(); ++i) changed += shaded[i] != lines[i];
-    EXPECT_GT(changed, shaded.size() / 20);
-    EXPECT_LT(changed, shaded.size() / 2);
+    for (std::size_t i = 0; i < shaded.rgba.size(); ++i) changed += shaded.rgba[i] != lines.rgba[i];
+    EXPECT_GT(changed, shaded.rgba.size() / 20);
+    EXPECT_LT(changed, shaded.rgba.size() / 2);
 
     auto field = std::make_shared<Field>(*chart.snapshot.field);
     for (std::size_t v = 0; v < field->unshot.size(); ++v) field->unshot[v] = v / 4 < side * side / 2 ? 100.0f : 1.0f;
@@ -258,8 +263,8 @@ TEST_F(ShaderTest, ElementsViewDrawsLinesAndUnshotViewItsScale) {
     params.view = ViewMode::unshot;
     params.unshot_top = 100;
     const auto unshot = read_back(renderer_->draw(params));
-    const auto &bright = unshot[pixel_of(params.camera, chart.centres.front())],
-               &dim = unshot[pixel_of(params.camera, chart.centres.back())];
+    const auto &bright = unshot.at(params.camera, chart.centres.front()),
+               &dim = unshot.at(params.camera, chart.centres.back());
     EXPECT_GT(bright[0], 240) << "the top of the scale is yellow";
     EXPECT_GT(bright[1], 220);
     EXPECT_LT(dim[0], 140) << "two decades below it is green";
