@@ -65,7 +65,7 @@ std::shared_ptr<const Field> compose_field(const Solution::State& s) {
                 field->irradiance_xyz[i] = weigh(irradiance, h.data());
                 field->reflected_xyz[i] = weigh(reflected[s.material_of(mesh.vertices[i].surface)], h.data());
                 if (!unshot.empty()) field->unshot[i] = unshot[i];
-                else field->unshot[i] = std::abs(weigh(irradiance, s.system.residual()[i]).y);
+                else field->unshot[i] = std::abs(weigh(irradiance, s.system.residual()[s.receivers.of_vertex[i]]).y);
             }
         });
         std::vector<glm::uvec3> coarse_elements;

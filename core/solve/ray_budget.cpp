@@ -53,7 +53,8 @@ double ray_error(std::span<const GatherPass> passes, const ScalarRadiosity& radi
     return counted > 0 ? std::sqrt(sum / counted) : 0;
 }
 
-double grey_ray_error(std::span<const GatherPass> passes, std::span<const float> fine_direct, std::span<const float> weight) {
+double grey_ray_error(std::span<const GatherPass> passes, std::span<const std::uint32_t> receiver_vertex,
+                      std::span<const float> fine_direct, std::span<const float> weight) {
     const std::uint32_t n = static_cast<std::uint32_t>(weight.size());
     ScalarRadiosity b{std::vector<float>(n + 1, 0), std::vector<float>(fine_direct.begin(), fine_direct.end())};
     for (float& direct : b.direct) direct *= grey;
@@ -71,7 +72,9 @@ double grey_ray_error(std::span<const GatherPass> passes, std::span<const float>
     }
     b.indirect.pop_back();
     b.direct.pop_back();
-    return ray_error(passes, b, fine_direct.first(n), weight);
+    std::vector<float> direct;
+    for (const std::uint32_t v : receiver_vertex) direct.push_back(fine_direct[v]);
+    return ray_error(passes, b, direct, weight);
 }
 
 } // namespace lueur

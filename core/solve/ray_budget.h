@@ -13,18 +13,19 @@
 
 namespace lueur {
 
-// What the rays carry, in one channel: radiosity by indirect light at the coarse vertices (U of gather_system.h), by direct light at all vertices.
+// What the rays carry, in one channel: radiosity by indirect light at the receivers (U of gather_system.h), by direct light at all vertices.
 struct ScalarRadiosity {
-    std::vector<float> indirect; // coarse vertices
+    std::vector<float> indirect; // receivers
     std::vector<float> direct;   // all vertices
 };
 
 // Relative RMS standard error of the irradiance direct + gathered over receivers brighter than 2 % of the mean, from the two sets.
-// direct: irradiance of the coarse vertices. An even number of passes, at least two, else 1. Receivers with weight 0 do not count.
+// direct: irradiance of the receivers. An even number of passes, at least two, else 1. Receivers with weight 0 do not count.
 double ray_error(std::span<const GatherPass> passes, const ScalarRadiosity& radiosity, std::span<const float> direct,
                  std::span<const float> weight);
 
-// The same for the grey stand-in, which it solves. fine_direct: equal-flux irradiance at all vertices, coarse ones first.
-double grey_ray_error(std::span<const GatherPass> passes, std::span<const float> fine_direct, std::span<const float> weight);
+// The same for the grey stand-in, which it solves. fine_direct: equal-flux irradiance at all vertices.
+double grey_ray_error(std::span<const GatherPass> passes, std::span<const std::uint32_t> receiver_vertex,
+                      std::span<const float> fine_direct, std::span<const float> weight);
 
 } // namespace lueur

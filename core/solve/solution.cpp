@@ -20,6 +20,8 @@ namespace {
 
 constexpr double residual_target = 2e-4;  // |r| / |b|, worst channel
 constexpr std::uint32_t most_sweeps = 400; // a system that needs more does not converge
+constexpr std::uint32_t fine_vertices = 25000; // that direct light may add: the window has to draw them
+constexpr double receiver_cell = 0.3;      // of the coarse element size
 constexpr double ray_share = 0.7;         // of the target error that the rays may take; interpolation has the rest
 constexpr double shooting_target = 0.002; // unshot share at which shooting ends
 
@@ -42,10 +44,10 @@ void make_channels(State& s) {
     s.status.message = s.status.emitted_lumens > 0 ? "" : "nothing emits light: the picture is black";
 }
 
-ChannelField rho_of_vertices(const State& s) {
-    ChannelField rho(s.mesh.coarse_vertex_count, s.wavelengths.size());
+ChannelField rho_of_receivers(const State& s) {
+    ChannelField rho(s.receivers.count(), s.wavelengths.size());
     for (std::uint32_t i = 0; i < rho.count; ++i) {
-        const auto& values = s.material_rho[s.material_of(s.mesh.vertices[i].surface)];
+        const auto& values = s.material_rho[s.material_of(s.mesh.vertices[s.receivers.vertex[i]].surface)];
         std::copy(values.begin(), values.end(), rho[i]);
     }
     return rho;
@@ -72,13 +74,22 @@ ChannelField direct_of(const State& s, std::size_t first, std::size_t last) {
     return h;
 }
 
+// Area that each receiver stands for, m^2; 0 for buried ones.
+std::vector<float> receiver_areas(const State& s) {
+    std::vector<float> area(s.receivers.count(), 0);
+    for (std::uint32_t v = 0; v < s.mesh.coarse_vertex_count; ++v)
+        if (!s.buried[v]) area[s.receivers.of_vertex[v]] += s.coarse_area[v];
+    return area;
+}
+
 // What the status calls unshot: luminous flux still to be sent on its way, of what the luminaires emit.
 double unshot_flux_share(const State& s) {
     double flux = 0;
-    for (std::uint32_t i = 0; i < s.mesh.coarse_vertex_count; ++i) {
+    const std::vector<float> area = receiver_areas(s);
+    for (std::uint32_t i = 0; i < s.receivers.count(); ++i) {
         double y = 0;
         for (int c = 0; c < s.wavelengths.size(); ++c) y += s.wavelengths.xyz_weight[c].y * s.system.residual()[i][c];
-        flux += s.coarse_area[i] * std::abs(y);
+        flux += area[i] * std::abs(y);
     }
     return s.status.emitted_lumens > 0 ? flux / s.status.emitted_lumens : 0;
 }
@@ -112,21 +123,14 @@ std::vector<float> equal_flux_direct(const State& s) {
     return direct;
 }
 
-std::vector<float> unburied_area(const State& s) {
-    std::vector<float> area = s.coarse_area;
-    for (std::size_t i = 0; i < area.size(); ++i)
-        if (s.buried[i]) area[i] = 0;
-    return area;
-}
-
 void update_error(State& s) {
-    const std::uint32_t coarse = s.mesh.coarse_vertex_count;
+    const std::uint32_t receivers = s.receivers.count();
     const auto luminous = [&](const float* channels) {
         double y = 0;
         for (int c = 0; c < s.wavelengths.size(); ++c) y += s.wavelengths.xyz_weight[c].y * channels[c];
         return static_cast<float>(y);
     };
-    ScalarRadiosity radiosity{std::vector<float>(coarse), std::vector<float>(s.mesh.vertices.size())};
+    ScalarRadiosity radiosity{std::vector<float>(receivers), std::vector<float>(s.mesh.vertices.size())};
     // Direct irradiance and its reflection: luminous exitance of each luminaire, and its luminous part on each paint.
     std::vector<double> exitance;
     std::vector<std::vector<double>> reflected(s.material_rho.size());
@@ -138,27 +142,28 @@ void update_error(State& s) {
             reflected[m].push_back(y);
         }
     }
-    std::vector<float> direct(coarse, 0);
+    std::vector<float> direct(receivers, 0);
+    for (std::uint32_t i = 0; i < receivers; ++i) {
+        radiosity.indirect[i] = luminous(s.system.radiosity()[i]);
+        for (std::size_t l = 0; l < exitance.size(); ++l)
+            direct[i] += static_cast<float>(s.direct->at_vertex(s.receivers.vertex[i])[l] * exitance[l]);
+    }
     for (std::uint32_t v = 0; v < s.mesh.vertices.size(); ++v) {
         const float* d = s.direct->at_vertex(v);
         const auto& on_paint = reflected[s.material_of(s.mesh.vertices[v].surface)];
-        for (std::size_t l = 0; l < exitance.size(); ++l) {
-            radiosity.direct[v] += static_cast<float>(d[l] * on_paint[l]);
-            if (v < coarse) direct[v] += static_cast<float>(d[l] * exitance[l]);
-        }
+        for (std::size_t l = 0; l < exitance.size(); ++l) radiosity.direct[v] += static_cast<float>(d[l] * on_paint[l]);
     }
-    for (std::uint32_t v = 0; v < coarse; ++v) radiosity.indirect[v] = luminous(s.system.radiosity()[v]);
 
     double mean_rho = 0, area = 0, white = 0;
     for (const Xyz& w : s.wavelengths.xyz_weight) white += w.y;
-    for (std::uint32_t v = 0; v < coarse; ++v) {
+    for (std::uint32_t v = 0; v < s.mesh.coarse_vertex_count; ++v) {
         const auto& rho = s.material_rho[s.material_of(s.mesh.vertices[v].surface)];
         double y = 0;
         for (std::size_t c = 0; c < rho.size(); ++c) y += s.wavelengths.xyz_weight[c].y * rho[c];
         mean_rho += s.coarse_area[v] * y / white, area += s.coarse_area[v];
     }
     mean_rho = area > 0 ? mean_rho / area : 0;
-    const double rays = ray_error(s.passes, radiosity, direct, unburied_area(s));
+    const double rays = ray_error(s.passes, radiosity, direct, receiver_areas(s));
     const double unsolved = s.status.unshot_share / std::max(1e-3, 1 - mean_rho);
     const double interpolation = s.direct->misfit();
     s.status.estimated_error = std::min(1.0, std::sqrt(rays * rays + unsolved * unsolved + interpolation * interpolation));
@@ -167,31 +172,33 @@ void update_error(State& s) {
 // In a closed scene that absorbs nothing the radiosity grows without end: say so instead of iterating.
 bool has_no_finite_solution(const State& s) {
     if (s.status.emitted_lumens <= 0 || s.passes.empty()) return false;
-    for (std::uint32_t i = 0; i < s.mesh.coarse_vertex_count; ++i) {
-        if (s.buried[i]) continue;
-        const auto& rho = s.material_rho[s.material_of(s.mesh.vertices[i].surface)];
+    for (std::uint32_t i = 0; i < s.receivers.count(); ++i) {
+        if (s.receivers.buried[i]) continue;
+        const auto& rho = s.material_rho[s.material_of(s.mesh.vertices[s.receivers.vertex[i]].surface)];
         if (*std::min_element(rho.begin(), rho.end()) < 1 - 1e-7) return false;
-        if (row_sum(s.passes, i, s.mesh.coarse_vertex_count) < 1 - 1e-7) return false;
+        if (row_sum(s.passes, i, s.receivers.count()) < 1 - 1e-7) return false;
     }
     return true;
 }
 
 void refresh_indirect(State& s) {
-    for (std::uint32_t i = 0; i < s.indirect_irradiance.count; ++i)
+    for (std::uint32_t v = 0; v < s.indirect_irradiance.count; ++v) {
+        const std::uint32_t i = s.receivers.of_vertex[v];
         for (int c = 0; c < s.wavelengths.size(); ++c)
-            s.indirect_irradiance[i][c] = s.gathered_direct[i][c] + s.system.gathered()[i][c];
+            s.indirect_irradiance[v][c] = s.gathered_direct[i][c] + s.system.gathered()[i][c];
+    }
 }
 
 // New sources, paints or rays: one reflection of direct light is gathered anew, then the system holds them.
 void start_gathering(State& s, bool new_rays) {
-    const std::uint32_t n = s.mesh.coarse_vertex_count;
+    const std::uint32_t n = s.receivers.count();
     const std::atomic<bool> never{false};
     s.gathered_direct = ChannelField(n, s.wavelengths.size());
-    s.indirect_irradiance = ChannelField(n, s.wavelengths.size());
+    s.indirect_irradiance = ChannelField(s.mesh.coarse_vertex_count, s.wavelengths.size());
     apply_rows(s.passes, RayEnds::fine, reflected_direct(s), s.gathered_direct, never);
-    if (!s.solving) s.system = GatherSystem(n, s.wavelengths.size(), unburied_area(s));
+    if (!s.solving) s.system = GatherSystem(n, s.wavelengths.size(), receiver_areas(s));
     if (new_rays) s.system.set_rows(s.passes);
-    s.system.set_sources(rho_of_vertices(s), s.gathered_direct);
+    s.system.set_sources(rho_of_receivers(s), s.gathered_direct);
     s.solving = true;
     s.status.sweeps = 0;
     refresh_indirect(s);
@@ -239,7 +246,6 @@ void publish_mesh(State& s) {
     s.published_mesh = std::make_shared<const Mesh>(s.mesh);
     s.status.vertices = static_cast<std::uint32_t>(s.mesh.vertices.size());
     s.status.elements = static_cast<std::uint32_t>(s.mesh.elements.size());
-    s.status.receivers = s.mesh.coarse_vertex_count;
 }
 
 void step_mesh(State& s) {
@@ -249,7 +255,7 @@ void step_mesh(State& s) {
     s.world = std::make_shared<const World>(s.mesh);
     s.origins = ray_origins(s.mesh, s.world->epsilon());
     s.buried.assign(s.mesh.coarse_vertex_count, 0);
-    const DirectParams params{0.03f, static_cast<float>(size / 6), 20000 + 4 * s.mesh.coarse_vertex_count};
+    const DirectParams params{0.03f, static_cast<float>(size / 6), s.mesh.coarse_vertex_count + fine_vertices};
     s.direct = std::make_unique<DirectTransport>(*s.world, s.mesh, make_emitters(*s.scene), params);
     publish_mesh(s);
     s.cursor = 0;
@@ -270,26 +276,37 @@ void step_burial(State& s, const std::atomic<bool>& cancel) {
         return;
     s.status.rays += std::uint64_t(s.mesh.coarse_vertex_count) * 16;
     restrict_sources(s);
+    const double size = s.scene->solve.element_size > 0 ? s.scene->solve.element_size : automatic_element_size(*s.scene);
+    s.receivers = make_receivers(*s.scene, s.mesh, s.buried, static_cast<float>(receiver_cell * size));
+    s.status.receivers = s.receivers.count();
     s.phase = s.scene->solve.solver == SolverKind::shooting ? SolvePhase::refine : SolvePhase::gather;
+}
+
+// Coarse vertices by their own rays, fine ones where they are dark and inside a solid.
+std::vector<std::uint8_t> all_buried(const State& s) {
+    std::vector<std::uint8_t> buried = s.direct->buried();
+    for (std::size_t v = 0; v < s.buried.size(); ++v) buried[v] = buried[v] || s.buried[v];
+    return buried;
 }
 
 void step_gather(State& s, const std::atomic<bool>& cancel) {
     s.status.stage = SolveStage::gathering_rays;
     if (!s.pass_open) {
-        s.passes.push_back(make_gather_pass(s.mesh));
+        s.passes.push_back(make_gather_pass(s.mesh, s.receivers));
         s.cursor = 0;
         s.pass_open = true;
     }
     const std::uint32_t pass = static_cast<std::uint32_t>(s.passes.size()) - 1;
-    if (!run_slice(s.cursor, s.mesh.coarse_vertex_count, 64, cancel, [&](std::uint32_t first, std::uint32_t last) {
-            trace_gather_rays(*s.world, s.mesh, s.origins, {s.buried, s.direct->buried()}, s.scene->solve.seed, pass, first, last,
+    const std::vector<std::uint8_t> buried = all_buried(s);
+    if (!run_slice(s.cursor, s.receivers.count(), 64, cancel, [&](std::uint32_t first, std::uint32_t last) {
+            trace_gather_rays(*s.world, s.mesh, s.origins, s.receivers, buried, s.scene->solve.seed, pass, first, last,
                               s.passes.back());
         }))
         return;
     s.pass_open = false;
-    s.status.rays += std::uint64_t(s.mesh.coarse_vertex_count) * rays_per_pass;
+    s.status.rays += std::uint64_t(s.receivers.count()) * rays_per_pass;
     s.status.rays_per_receiver = static_cast<std::uint32_t>(s.passes.size()) * rays_per_pass;
-    s.status.row_entries = std::uint64_t(s.mesh.coarse_vertex_count) * s.status.rays_per_receiver;
+    s.status.row_entries = std::uint64_t(s.receivers.count()) * s.status.rays_per_receiver;
     if (s.passes.size() < s.passes_wanted) return;
     start_gathering(s, true);
     s.phase = SolvePhase::sweep;
@@ -306,7 +323,7 @@ void plan_passes(State& s) {
     const std::uint32_t now = static_cast<std::uint32_t>(s.passes.size());
     if (s.rays_planned || now < s.passes_wanted) return;
     const double target = ray_share * s.scene->solve.target_error;
-    const double error = grey_ray_error(s.passes, equal_flux_direct(s), unburied_area(s));
+    const double error = grey_ray_error(s.passes, s.receivers.vertex, equal_flux_direct(s), receiver_areas(s));
     if (error <= target || now >= most_passes(s)) {
         s.rays_planned = true;
         return;

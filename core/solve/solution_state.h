@@ -28,6 +28,7 @@ struct Solution::State {
     std::unique_ptr<DirectTransport> direct;
     std::vector<glm::vec3> origins;              // of coarse vertices
     std::vector<std::uint8_t> buried;            // coarse vertices
+    Receivers receivers;                         // who gathers for the coarse vertices
     std::vector<GatherPass> passes;
     bool pass_open = false;                      // the last pass is being traced
     std::uint32_t passes_wanted = 1;             // from the geometry alone: see passes_for
@@ -43,8 +44,8 @@ struct Solution::State {
     std::vector<std::optional<LuminaireIndex>> object_luminaire;
 
     GatherSystem system;
-    ChannelField gathered_direct;                // irradiance at coarse vertices after one reflection of direct light
-    ChannelField indirect_irradiance;            // gathered_direct + W U, refreshed after sweeps
+    ChannelField gathered_direct;                // irradiance at receivers after one reflection of direct light
+    ChannelField indirect_irradiance;            // gathered_direct + W U at the coarse vertices, refreshed after sweeps
     Shooting shooting;
     bool solving = false; // system or shooting hold this scene's sources
     bool edit_open = true; // last_edit_seconds is still to be set

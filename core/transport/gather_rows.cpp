@@ -38,40 +38,43 @@ void find_buried(const World& world, const Mesh& mesh, const std::vector<glm::ve
     }
 }
 
-GatherPass make_gather_pass(const Mesh& mesh) {
-    const std::size_t rays = std::size_t(mesh.coarse_vertex_count) * rays_per_pass;
-    return {std::vector<std::uint32_t>(rays, mesh.coarse_vertex_count),
+GatherPass make_gather_pass(const Mesh& mesh, const Receivers& receivers) {
+    const std::size_t rays = std::size_t(receivers.count()) * rays_per_pass;
+    return {std::vector<std::uint32_t>(rays, receivers.count()),
             std::vector<std::uint32_t>(rays, static_cast<std::uint32_t>(mesh.vertices.size()))};
 }
 
-void trace_gather_rays(const World& world, const Mesh& mesh, const std::vector<glm::vec3>& origins, const Buried& buried,
-                       std::uint32_t seed, std::uint32_t pass, std::uint32_t first, std::uint32_t last, GatherPass& out) {
+void trace_gather_rays(const World& world, const Mesh& mesh, const std::vector<glm::vec3>& origins, const Receivers& receivers,
+                       const std::vector<std::uint8_t>& buried, std::uint32_t seed, std::uint32_t pass, std::uint32_t first,
+                       std::uint32_t last, GatherPass& out) {
     const std::uint32_t key = hash(hash(seed, pass), 0x5bd1e995u); // of the choices of vertices
     const std::uint32_t first_point = pass / independent_sets * rays_per_pass;
     for (std::uint32_t i = first; i < last; ++i) {
-        if (buried.coarse[i]) continue; // all its rays stay outside
-        const Frame frame(mesh.vertices[i].normal);
+        if (receivers.buried[i]) continue; // all its rays stay outside
+        const std::uint32_t vertex = receivers.vertex[i];
+        const Frame frame(mesh.vertices[vertex].normal);
         const glm::vec2 offset = random_offset(hash(seed, pass % independent_sets), i);
         for (std::uint32_t k = 0; k < rays_per_pass; ++k) {
-            const Hit hit = world.closest({origins[i], frame.world(cosine_direction(r2_point(first_point + k, offset)))});
+            const Hit hit =
+                world.closest({origins[vertex], frame.world(cosine_direction(r2_point(first_point + k, offset)))});
             if (hit.element == no_index) continue;
             const std::size_t ray = std::size_t(i) * rays_per_pass + k;
             const std::uint32_t bits = hash(key, static_cast<std::uint32_t>(ray));
             const glm::vec3 weights(1 - hit.b1 - hit.b2, hit.b1, hit.b2);
-            const std::uint32_t end = pick_vertex(mesh.nodes[hit.element].vertices, weights, buried.coarse, unit_float(bits));
-            if (end != no_index) out.ends[ray] = end;
+            const std::uint32_t end = pick_vertex(mesh.nodes[hit.element].vertices, weights, buried, unit_float(bits));
+            if (end != no_index) out.ends[ray] = receivers.of_vertex[end];
             const Located fine = locate(mesh, hit.element, hit.b1, hit.b2);
-            const std::uint32_t fine_end = pick_vertex(fine.vertices, fine.weights, buried.fine, unit_float(hash(bits)));
+            const std::uint32_t fine_end = pick_vertex(fine.vertices, fine.weights, buried, unit_float(hash(bits)));
             if (fine_end != no_index) out.fine_ends[ray] = fine_end;
         }
     }
 }
 
-double row_sum(const std::vector<GatherPass>& passes, std::uint32_t receiver, std::uint32_t coarse_vertex_count) {
+double row_sum(const std::vector<GatherPass>& passes, std::uint32_t receiver, std::uint32_t receivers) {
     std::uint64_t hits = 0;
     for (const GatherPass& pass : passes)
         for (int k = 0; k < rays_per_pass; ++k)
-            hits += pass.ends[std::size_t(receiver) * rays_per_pass + k] != coarse_vertex_count;
+            hits += pass.ends[std::size_t(receiver) * rays_per_pass + k] != receivers;
     return passes.empty() ? 0 : double(hits) / (double(passes.size()) * rays_per_pass);
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/transport/mesh.h"
+#include "core/transport/receivers.h"
 #include "core/transport/world.h"
 
 namespace lueur {
@@ -24,26 +25,20 @@ void find_buried(const World& world, const Mesh& mesh, const std::vector<glm::ve
                  std::uint32_t last, std::vector<std::uint8_t>& buried);
 
 struct GatherPass {
-    // coarse_vertex_count * rays_per_pass of each. The vertex each ray ended at, drawn among those of the coarse element it met
-    // (coarse_vertex_count where it left the scene or met a black back face), and among those of the fine one (vertex count then):
-    // indirect light is read from coarse vertices, direct light from fine ones.
+    // receivers * rays_per_pass of each. The receiver each ray ended at, drawn among those of the vertices of the coarse element it met (the
+    // number of receivers where it left the scene or met a black back face), and the fine vertex, drawn among those of the fine
+    // element (the number of vertices then): indirect light is read from receivers, direct light from fine vertices.
     std::vector<std::uint32_t> ends;
     std::vector<std::uint32_t> fine_ends;
 };
 
-GatherPass make_gather_pass(const Mesh& mesh);
+GatherPass make_gather_pass(const Mesh& mesh, const Receivers& receivers);
 
-// Which vertices lie inside solids: coarse ones by find_buried, fine ones as direct light found them.
-struct Buried {
-    const std::vector<std::uint8_t>& coarse;
-    const std::vector<std::uint8_t>& fine;
-};
-
-// Traces the rays of receivers [first, last) of pass number `pass`. Deterministic for a seed, whatever the chunks and threads.
-void trace_gather_rays(const World& world, const Mesh& mesh, const std::vector<glm::vec3>& origins, const Buried& buried,
-                       std::uint32_t seed, std::uint32_t pass, std::uint32_t first, std::uint32_t last, GatherPass& out);
+// Traces the rays of receivers [first, last) of pass number `pass`. origins, buried: of all vertices, coarse ones first. Deterministic for a seed, whatever the chunks and threads.
+void trace_gather_rays(const World& world, const Mesh& mesh, const std::vector<glm::vec3>& origins, const Receivers& receivers,
+                       const std::vector<std::uint8_t>& buried, std::uint32_t seed, std::uint32_t pass, std::uint32_t first, std::uint32_t last, GatherPass& out);
 
 // Share of a receiver's rays that hit something that can shine: the row sum.
-double row_sum(const std::vector<GatherPass>& passes, std::uint32_t receiver, std::uint32_t coarse_vertex_count);
+double row_sum(const std::vector<GatherPass>& passes, std::uint32_t receiver, std::uint32_t receivers);
 
 } // namespace lueur

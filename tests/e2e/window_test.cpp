@@ -199,8 +199,9 @@ TEST(Window, WithoutADisplayItSaysSoAndEnds) {
 TEST(Window, ABadFileIsToldAndTheSceneStays) {
     const test::VirtualScreen screen(1280, 800);
     Program program(screen, {(std::filesystem::temp_directory_path() / "lueur is not there.toml").string()});
-    const auto close = program.box("errors:close");
-    program.click(close.x(), close.y());
+    program.box("errors:close");
+    Program::rest(0.5); // the box has found its place
+    program.click("errors:close");
     EXPECT_TRUE(program.wait([](const nlohmann::json& json) { return !json["widgets"].contains("errors:close"); }, 20));
     program.hand("key ctrl+q");
     EXPECT_EQ(program.wait_end(20), 0);

@@ -117,9 +117,12 @@ TEST_P(CubeOfSixWalls, MeansOfTheWalls) {
     const std::vector<glm::vec3> origins = ray_origins(mesh, world.epsilon());
     const std::vector<std::uint8_t> buried(mesh.coarse_vertex_count, 0);
     const std::vector<float> areas = vertex_areas(mesh);
-    std::vector<GatherPass> traced(16, make_gather_pass(mesh));
+    Receivers receivers; // each vertex its own
+    for (std::uint32_t v = 0; v < mesh.coarse_vertex_count; ++v) receivers.of_vertex.push_back(v), receivers.vertex.push_back(v);
+    receivers.buried = buried;
+    std::vector<GatherPass> traced(16, make_gather_pass(mesh, receivers));
     for (std::uint32_t p = 0; p < traced.size(); ++p)
-        trace_gather_rays(world, mesh, origins, {buried, buried}, 1, p, 0, mesh.coarse_vertex_count, traced[p]);
+        trace_gather_rays(world, mesh, origins, receivers, buried, 1, p, 0, mesh.coarse_vertex_count, traced[p]);
     std::array<std::array<double, 6>, 6> F{};
     std::array<double, 6> area{};
     for (std::uint32_t v = 0; v < mesh.coarse_vertex_count; ++v) {

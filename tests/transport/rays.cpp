@@ -12,6 +12,21 @@
 
 using namespace lueur;
 
+namespace {
+
+// Each vertex its own receiver.
+Receivers every_vertex(const Mesh& mesh, const std::vector<std::uint8_t>& buried) {
+    Receivers receivers;
+    for (std::uint32_t v = 0; v < mesh.coarse_vertex_count; ++v) {
+        receivers.of_vertex.push_back(v);
+        receivers.vertex.push_back(v);
+    }
+    receivers.buried = buried;
+    return receivers;
+}
+
+} // namespace
+
 TEST(World, HitsTheLitSideAndTellsBackFaces) {
     const Mesh mesh = make_mesh(test::furnace(0.5), {0.6});
     const World world(mesh);
@@ -52,8 +67,9 @@ TEST(GatherRows, SumToOneInAClosedScene) {
     const auto origins = ray_origins(mesh, world.epsilon());
     std::vector<std::uint8_t> buried(mesh.coarse_vertex_count, 0);
     find_buried(world, mesh, origins, 0, mesh.coarse_vertex_count, buried);
-    GatherPass pass = make_gather_pass(mesh);
-    trace_gather_rays(world, mesh, origins, {buried, buried}, 1, 0, 0, mesh.coarse_vertex_count, pass);
+    const Receivers receivers = every_vertex(mesh, buried);
+    GatherPass pass = make_gather_pass(mesh, receivers);
+    trace_gather_rays(world, mesh, origins, receivers, buried, 1, 0, 0, mesh.coarse_vertex_count, pass);
     int lost = 0;
     for (std::uint32_t i = 0; i < mesh.coarse_vertex_count; ++i)
         if (!buried[i]) lost += static_cast<int>((1 - row_sum({pass}, i, mesh.coarse_vertex_count)) * rays_per_pass + 0.5);
@@ -64,8 +80,9 @@ TEST(GatherRows, SumToOneInAClosedScene) {
     const World closed(cube);
     const auto cube_origins = ray_origins(cube, closed.epsilon());
     std::vector<std::uint8_t> none(cube.coarse_vertex_count, 0);
-    GatherPass rows = make_gather_pass(cube);
-    trace_gather_rays(closed, cube, cube_origins, {none, none}, 7, 3, 0, cube.coarse_vertex_count, rows);
+    const Receivers cube_receivers = every_vertex(cube, none);
+    GatherPass rows = make_gather_pass(cube, cube_receivers);
+    trace_gather_rays(closed, cube, cube_origins, cube_receivers, none, 7, 3, 0, cube.coarse_vertex_count, rows);
     for (std::uint32_t i = 0; i < cube.coarse_vertex_count; ++i)
         ASSERT_EQ(row_sum({rows}, i, cube.coarse_vertex_count), 1) << "vertex " << i;
 }
@@ -75,10 +92,11 @@ TEST(GatherRows, AreTheSameWhateverTheChunks) {
     const World world(mesh);
     const auto origins = ray_origins(mesh, world.epsilon());
     const std::vector<std::uint8_t> buried(mesh.coarse_vertex_count, 0);
-    GatherPass a = make_gather_pass(mesh), b = make_gather_pass(mesh), other = make_gather_pass(mesh);
-    trace_gather_rays(world, mesh, origins, {buried, buried}, 5, 2, 0, mesh.coarse_vertex_count, a);
-    for (std::uint32_t i = 0; i < mesh.coarse_vertex_count; ++i) trace_gather_rays(world, mesh, origins, {buried, buried}, 5, 2, i, i + 1, b);
-    trace_gather_rays(world, mesh, origins, {buried, buried}, 6, 2, 0, mesh.coarse_vertex_count, other);
+    const Receivers receivers = every_vertex(mesh, buried);
+    GatherPass a = make_gather_pass(mesh, receivers), b = a, other = a;
+    trace_gather_rays(world, mesh, origins, receivers, buried, 5, 2, 0, mesh.coarse_vertex_count, a);
+    for (std::uint32_t i = 0; i < mesh.coarse_vertex_count; ++i) trace_gather_rays(world, mesh, origins, receivers, buried, 5, 2, i, i + 1, b);
+    trace_gather_rays(world, mesh, origins, receivers, buried, 6, 2, 0, mesh.coarse_vertex_count, other);
     EXPECT_EQ(a.ends, b.ends);
     EXPECT_NE(a.ends, other.ends);
 }
@@ -93,11 +111,12 @@ TEST(GatherRows, MeasureFormFactors) {
     ASSERT_NE(middle, no_index);
     const auto origins = ray_origins(mesh, world.epsilon());
     const std::vector<std::uint8_t> buried(mesh.coarse_vertex_count, 0);
+    const Receivers receivers = every_vertex(mesh, buried);
     double ceiling = 0;
     const int passes = 64;
     for (int p = 0; p < passes; ++p) {
-        GatherPass pass = make_gather_pass(mesh);
-        trace_gather_rays(world, mesh, origins, {buried, buried}, 1, p, middle, middle + 1, pass);
+        GatherPass pass = make_gather_pass(mesh, receivers);
+        trace_gather_rays(world, mesh, origins, receivers, buried, 1, p, middle, middle + 1, pass);
         for (int k = 0; k < rays_per_pass; ++k)
             ceiling += mesh.vertices[pass.ends[std::size_t(middle) * rays_per_pass + k]].normal.y < -0.5f;
     }
@@ -183,4 +202,23 @@ TEST(DirectLight, FarAndNearAgree) {
         const double exact = polygon_form_factor(p, normal, polygon);
         EXPECT_NEAR(direct_form_factor(world, emitter, p, normal, rays) / exact, 1, 0.005);
     }
+}
+
+TEST(Receivers, StandForCloseVerticesThatLookTheSameWay) {
+    const Scene scene = test::small_room();
+    const Mesh mesh = make_mesh(scene, {0.25});
+    std::vector<std::uint8_t> buried(mesh.coarse_vertex_count, 0);
+    for (std::uint32_t v = 0; v < mesh.coarse_vertex_count; v += 7) buried[v] = 1;
+    const Receivers receivers = make_receivers(scene, mesh, buried, 0.4f);
+    EXPECT_LT(receivers.count(), mesh.coarse_vertex_count / 2);
+    for (std::uint32_t v = 0; v < mesh.coarse_vertex_count; ++v) {
+        const std::uint32_t r = receivers.of_vertex[v], w = receivers.vertex[r];
+        ASSERT_EQ(receivers.of_vertex[w], r);
+        EXPECT_LT(glm::distance(mesh.vertices[v].position, mesh.vertices[w].position), 0.4f * 1.74f);
+        EXPECT_GT(glm::dot(mesh.vertices[v].normal, mesh.vertices[w].normal), 0.7f);
+        EXPECT_EQ(scene.geometry->surfaces[mesh.vertices[v].surface].object, scene.geometry->surfaces[mesh.vertices[w].surface].object);
+        EXPECT_EQ(buried[v], buried[w]);
+        EXPECT_EQ(buried[v], receivers.buried[r]);
+    }
+    EXPECT_EQ(make_receivers(scene, mesh, buried, 1e-4f).count(), mesh.coarse_vertex_count); // small cells: each its own
 }
