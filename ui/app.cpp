@@ -31,7 +31,8 @@ namespace {
 
 // The master dimmer and solo replace the scene, but nothing in it but dimmers: no ray is stale.
 Stage narrowed(Stage stage, const Scene& before, const Scene& after) {
-    if (stage != Stage::mesh || before.geometry != after.geometry || before.luminaires.size() != after.luminaires.size())
+    if (stage != Stage::mesh || before.geometry != after.geometry ||
+        before.luminaires.size() != after.luminaires.size())
         return stage;
     Scene same = after;
     for (std::size_t i = 0; i < same.luminaires.size(); ++i) same.luminaires[i].dimmer = before.luminaires[i].dimmer;
@@ -183,14 +184,18 @@ void App::apply(const Edit& edit) {
 
 void App::do_command(Command command) {
     switch (command) {
-    case Command::open: state_.file_request = FileRequest{}; break;
+    case Command::open:
+        state_.file_request = FileRequest{};
+        break;
     case Command::save:
         if (!document_.file().empty() && document_.file().extension() == ".toml")
             save(document_.file());
         else
             state_.file_request = FileRequest{FilePurpose::save_scene, {}, {}, {}};
         break;
-    case Command::save_as: state_.file_request = FileRequest{FilePurpose::save_scene, {}, {}, {}}; break;
+    case Command::save_as:
+        state_.file_request = FileRequest{FilePurpose::save_scene, {}, {}, {}};
+        break;
     case Command::screenshot: {
         ScreenshotParams params;
         params.snapshot = snapshot_;
@@ -203,7 +208,9 @@ void App::do_command(Command command) {
         screenshots_.start(std::move(params));
         break;
     }
-    case Command::quit: ask_first({true, {}}); break;
+    case Command::quit:
+        ask_first({true, {}});
+        break;
     case Command::undo:
     case Command::redo: {
         const auto before = document_.shared_scene();
@@ -212,16 +219,28 @@ void App::do_command(Command command) {
         if (state_.selected && at(*state_.selected) >= document_.scene().objects.size()) state_.selected.reset();
         break;
     }
-    case Command::view_shaded: state_.view = ViewMode::shaded; break;
-    case Command::view_elements: state_.view = ViewMode::elements; break;
-    case Command::view_unshot: state_.view = ViewMode::unshot; break;
+    case Command::view_shaded:
+        state_.view = ViewMode::shaded;
+        break;
+    case Command::view_elements:
+        state_.view = ViewMode::elements;
+        break;
+    case Command::view_unshot:
+        state_.view = ViewMode::unshot;
+        break;
     case Command::frame_selection:
     case Command::home:
         if (const auto edit = camera_command(command, document_, state_, view_)) apply(*edit);
         break;
-    case Command::toggle_panels: state_.layout.panels_visible = !state_.layout.panels_visible; break;
-    case Command::toggle_probe: state_.layout.probe_at_cursor = !state_.layout.probe_at_cursor; break;
-    case Command::deselect: state_.selected.reset(); break;
+    case Command::toggle_panels:
+        state_.layout.panels_visible = !state_.layout.panels_visible;
+        break;
+    case Command::toggle_probe:
+        state_.layout.probe_at_cursor = !state_.layout.probe_at_cursor;
+        break;
+    case Command::deselect:
+        state_.selected.reset();
+        break;
     case Command::pause:
         state_.paused = !state_.paused;
         worker_.set_paused(state_.paused);
@@ -233,9 +252,15 @@ void App::do_command(Command command) {
         state_.unshot_top = 0;
         worker_.restart();
         break;
-    case Command::help: state_.help_open = !state_.help_open; break;
-    case Command::log: state_.log_open = !state_.log_open; break;
-    case Command::about: state_.about_open = true; break;
+    case Command::help:
+        state_.help_open = !state_.help_open;
+        break;
+    case Command::log:
+        state_.log_open = !state_.log_open;
+        break;
+    case Command::about:
+        state_.about_open = true;
+        break;
     }
 }
 
@@ -259,7 +284,7 @@ void App::do_pending() {
 void App::take_events() {
     auto events = window_->take_events();
     if (events.any) {
-        frames_left_ = 3; // ImGui reacts to what it saw a frame ago
+        frames_left_ = 3;                // ImGui reacts to what it saw a frame ago
         wake_at_ = window_->now() + 0.6; // tooltips that wait for a still pointer
     }
     if (events.close) ask_first({true, {}});
@@ -269,12 +294,15 @@ void App::take_events() {
             if (const auto command = command_for_key(key, modifiers)) state_.commands.push_back(*command);
     for (const auto& file : events.dropped) {
         switch (kind_of_dropped(file)) {
-        case DroppedKind::scene: state_.files_to_open.push_back(file); break;
+        case DroppedKind::scene:
+            state_.files_to_open.push_back(file);
+            break;
         case DroppedKind::picture:
         case DroppedKind::spectrum: {
             double x = 0, y = 0;
             window_->pointer(x, y);
-            const auto target = probe_at(*snapshot_, document_.scene().camera, view_, static_cast<float>(x), static_cast<float>(y));
+            const auto target =
+                probe_at(*snapshot_, document_.scene().camera, view_, static_cast<float>(x), static_cast<float>(y));
             if (auto edit = edit_of_dropped(file, document_.scene(), target)) {
                 apply(*edit);
                 document_.end_drag();
@@ -283,7 +311,8 @@ void App::take_events() {
             break;
         }
         case DroppedKind::unknown:
-            say(Severity::error, file.filename().string() + ": not a scene (.toml .obj .gltf .glb), picture or spectrum (.csv)");
+            say(Severity::error,
+                file.filename().string() + ": not a scene (.toml .obj .gltf .glb), picture or spectrum (.csv)");
             break;
         }
     }
@@ -293,15 +322,23 @@ void App::request_file(const FileRequest& request) {
     browsing_for_ = request;
     const auto folder = document_.scene().folder.empty() ? std::filesystem::path(".") : document_.scene().folder;
     switch (request.purpose) {
-    case FilePurpose::open_scene: browser_.open("Open a scene", {".toml", ".obj", ".gltf", ".glb"}, false, folder); break;
+    case FilePurpose::open_scene:
+        browser_.open("Open a scene", {".toml", ".obj", ".gltf", ".glb"}, false, folder);
+        break;
     case FilePurpose::save_scene: {
         auto name = document_.file().empty() ? folder / "scene.toml" : document_.file();
         browser_.open("Save the scene", {".toml"}, true, name.replace_extension(".toml"));
         break;
     }
-    case FilePurpose::reflectance_spectrum: browser_.open("Spectrum of a reflectance", {".csv"}, false, folder); break;
-    case FilePurpose::emission_spectrum: browser_.open("Spectrum of a lamp", {".csv"}, false, folder); break;
-    case FilePurpose::texture: browser_.open("Texture", picture_extensions(), false, folder); break;
+    case FilePurpose::reflectance_spectrum:
+        browser_.open("Spectrum of a reflectance", {".csv"}, false, folder);
+        break;
+    case FilePurpose::emission_spectrum:
+        browser_.open("Spectrum of a lamp", {".csv"}, false, folder);
+        break;
+    case FilePurpose::texture:
+        browser_.open("Texture", picture_extensions(), false, folder);
+        break;
     }
 }
 
@@ -315,7 +352,9 @@ void App::file_chosen(const std::filesystem::path& file) {
         document_.end_drag();
     };
     switch (browsing_for_.purpose) {
-    case FilePurpose::open_scene: ask_first({false, file}); break;
+    case FilePurpose::open_scene:
+        ask_first({false, file});
+        break;
     case FilePurpose::save_scene:
         if (save(file) && pending_after_save_) do_pending();
         pending_after_save_ = false;
@@ -326,7 +365,9 @@ void App::file_chosen(const std::filesystem::path& file) {
     case FilePurpose::emission_spectrum:
         use(emission_edit(file, browsing_for_.column, document_.scene(), browsing_for_.luminaire));
         break;
-    case FilePurpose::texture: use(texture_edit(file, document_.scene(), browsing_for_.material)); break;
+    case FilePurpose::texture:
+        use(texture_edit(file, document_.scene(), browsing_for_.material));
+        break;
     }
 }
 
@@ -336,9 +377,14 @@ void App::dialogs() {
     about_dialog(state_);
     draw_log(state_.messages, state_.log_open, state_.scale);
     switch (unsaved_dialog(document_, ask_unsaved_, state_)) {
-    case UnsavedAnswer::none: break;
-    case UnsavedAnswer::cancel: pending_.reset(); break;
-    case UnsavedAnswer::discard: do_pending(); break;
+    case UnsavedAnswer::none:
+        break;
+    case UnsavedAnswer::cancel:
+        pending_.reset();
+        break;
+    case UnsavedAnswer::discard:
+        do_pending();
+        break;
     case UnsavedAnswer::save:
         if (!document_.file().empty() && document_.file().extension() == ".toml") {
             if (save(document_.file())) do_pending();
@@ -360,7 +406,8 @@ void App::draw() {
 
     snapshot_ = worker_.latest();
     const bool present = snapshot_->scene && snapshot_->scene->geometry == document_.scene().geometry;
-    if (present && update_exposure(state_.exposure, document_.scene().display, *snapshot_, document_.scene().camera, aspect_of(view_)))
+    if (present && update_exposure(state_.exposure, document_.scene().display, *snapshot_, document_.scene().camera,
+                                   aspect_of(view_)))
         frames_left_ = std::max(frames_left_, 1);
 
     if (const double scale = menu_bar(document_, preferences_, state_); scale > 0) {
@@ -368,14 +415,14 @@ void App::draw() {
         window_->set_scale(scale);
         frames_left_ = 3;
     }
-    const auto edits = main_layout(document_, *snapshot_, state_, [&] {
-        return viewport(document_, *snapshot_, state_, view_, *renderer_, now, dt);
-    });
+    const auto edits = main_layout(document_, *snapshot_, state_,
+                                   [&] { return viewport(document_, *snapshot_, state_, view_, *renderer_, now, dt); });
     for (const auto& edit : edits) apply(edit);
     if (!edits.empty()) frames_left_ = std::max(frames_left_, 1);
 
     if (state_.preview) {
-        worker_.submit(std::make_shared<const Scene>(*std::exchange(state_.preview, std::nullopt)), document_.revision(), Stage::sources);
+        worker_.submit(std::make_shared<const Scene>(*std::exchange(state_.preview, std::nullopt)),
+                       document_.revision(), Stage::sources);
         previewing_ = true;
     } else if (previewing_ && state_.master == 1) {
         submit(Stage::sources); // back to the document's own dimmers
@@ -391,7 +438,9 @@ void App::draw() {
     const float bottom = view_.height > 16 ? static_cast<float>(view_.y + view_.height) : screen->WorkSize.y;
     const auto note_changes = draw_notes(state_.messages, now, right, bottom, state_.scale);
 
-    const auto soon = [&](double seconds) { wake_at_ = wake_at_ > now ? std::min(wake_at_, now + seconds) : now + seconds; };
+    const auto soon = [&](double seconds) {
+        wake_at_ = wake_at_ > now ? std::min(wake_at_, now + seconds) : now + seconds;
+    };
     if (note_changes) soon(*note_changes);
     if (ImGui::GetIO().WantTextInput) soon(0.4); // the caret
     if (!view_.refined) soon(0.16);
@@ -404,7 +453,8 @@ void App::log_facts() {
     const auto display = display_in_use(document_.scene().display, state_.exposure);
     log.fact("document_revision", fmt::format("{}", document_.revision()));
     log.fact("snapshot_document_revision", fmt::format("{}", snapshot_->document_revision));
-    log.fact("settled", truth(snapshot_->status.settled && snapshot_->document_revision >= submitted_revision_ && !previewing_));
+    log.fact("settled",
+             truth(snapshot_->status.settled && snapshot_->document_revision >= submitted_revision_ && !previewing_));
     log.fact("refined", truth(view_.refined));
     log.fact("max_display", fmt::format("{}", display.max_display));
     log.fact("gamma", fmt::format("{}", display.gamma));
@@ -425,7 +475,8 @@ void App::frame() {
     const double start = window_->now();
     window_->begin_frame();
     draw();
-    window_->end_frame({view_.picture.framebuffer, view_.picture.width, view_.picture.height, view_.x, view_.y, view_.width, view_.height});
+    window_->end_frame({view_.picture.framebuffer, view_.picture.width, view_.picture.height, view_.x, view_.y,
+                        view_.width, view_.height});
     log_facts();
     if (modified_revision_ != document_.revision()) {
         modified_revision_ = document_.revision();
@@ -434,10 +485,10 @@ void App::frame() {
     const auto name = document_.file().empty() ? std::string("untitled") : document_.file().filename().string();
     window_->set_title(name + (modified_ ? " *" : "") + " - Lueur");
     if (frame_log_) {
-        frame_log_ << fmt::format("{:.4f} frame_ms {:.2f} picture_ms {:.2f} picture {}x{} samples {} solving {}\n", start,
-                                  1000 * (window_->now() - start), view_.drew_mesh ? 1000 * view_.draw_seconds : 0.0,
-                                  view_.picture.width, view_.picture.height, view_.picture.samples,
-                                  snapshot_->status.settled ? 0 : 1)
+        frame_log_ << fmt::format("{:.4f} frame_ms {:.2f} picture_ms {:.2f} picture {}x{} samples {} solving {}\n",
+                                  start, 1000 * (window_->now() - start),
+                                  view_.drew_mesh ? 1000 * view_.draw_seconds : 0.0, view_.picture.width,
+                                  view_.picture.height, view_.picture.samples, snapshot_->status.settled ? 0 : 1)
                    << std::flush;
     }
 }

@@ -33,7 +33,9 @@ constexpr std::array<CommandInfo, 21> table{{
 
 } // namespace
 
-std::span<const CommandInfo> all_commands() { return table; }
+std::span<const CommandInfo> all_commands() {
+    return table;
+}
 
 const CommandInfo& info(Command command) {
     for (const auto& entry : table)
@@ -46,34 +48,55 @@ std::optional<Command> command_for_key(int key, int modifiers) {
     if (modifiers & (GLFW_MOD_ALT | GLFW_MOD_SUPER)) return {};
     if (control) {
         switch (key) {
-        case GLFW_KEY_O: return Command::open;
-        case GLFW_KEY_S: return shift ? Command::save_as : Command::save;
-        case GLFW_KEY_Z: return shift ? Command::redo : Command::undo;
-        case GLFW_KEY_Y: return Command::redo;
-        case GLFW_KEY_Q: return Command::quit;
-        case GLFW_KEY_R: return Command::restart;
-        default: return {};
+        case GLFW_KEY_O:
+            return Command::open;
+        case GLFW_KEY_S:
+            return shift ? Command::save_as : Command::save;
+        case GLFW_KEY_Z:
+            return shift ? Command::redo : Command::undo;
+        case GLFW_KEY_Y:
+            return Command::redo;
+        case GLFW_KEY_Q:
+            return Command::quit;
+        case GLFW_KEY_R:
+            return Command::restart;
+        default:
+            return {};
         }
     }
     switch (key) {
     case GLFW_KEY_F12:
-    case GLFW_KEY_P: return Command::screenshot;
+    case GLFW_KEY_P:
+        return Command::screenshot;
     case GLFW_KEY_1:
-    case GLFW_KEY_KP_1: return Command::view_shaded;
+    case GLFW_KEY_KP_1:
+        return Command::view_shaded;
     case GLFW_KEY_2:
-    case GLFW_KEY_KP_2: return Command::view_elements;
+    case GLFW_KEY_KP_2:
+        return Command::view_elements;
     case GLFW_KEY_3:
-    case GLFW_KEY_KP_3: return Command::view_unshot;
-    case GLFW_KEY_F: return Command::frame_selection;
-    case GLFW_KEY_HOME: return Command::home;
-    case GLFW_KEY_TAB: return Command::toggle_panels;
-    case GLFW_KEY_T: return Command::toggle_probe;
-    case GLFW_KEY_ESCAPE: return Command::deselect;
-    case GLFW_KEY_SPACE: return Command::pause;
-    case GLFW_KEY_PERIOD: return Command::step;
-    case GLFW_KEY_F1: return Command::help;
-    case GLFW_KEY_F2: return Command::log;
-    default: return {};
+    case GLFW_KEY_KP_3:
+        return Command::view_unshot;
+    case GLFW_KEY_F:
+        return Command::frame_selection;
+    case GLFW_KEY_HOME:
+        return Command::home;
+    case GLFW_KEY_TAB:
+        return Command::toggle_panels;
+    case GLFW_KEY_T:
+        return Command::toggle_probe;
+    case GLFW_KEY_ESCAPE:
+        return Command::deselect;
+    case GLFW_KEY_SPACE:
+        return Command::pause;
+    case GLFW_KEY_PERIOD:
+        return Command::step;
+    case GLFW_KEY_F1:
+        return Command::help;
+    case GLFW_KEY_F2:
+        return Command::log;
+    default:
+        return {};
     }
 }
 

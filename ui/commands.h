@@ -1,4 +1,5 @@
-// Everything that menus, keys and buttons can ask for, once: the menus, the help page and the keyboard read the same table.
+// Everything that menus, keys and buttons can ask for, once: the menus, the help page and the keyboard read the same
+// table.
 #pragma once
 
 #include <optional>
@@ -7,11 +8,27 @@
 namespace lueur {
 
 enum class Command {
-    open, save, save_as, screenshot, quit,
-    undo, redo,
-    view_shaded, view_elements, view_unshot, frame_selection, home, toggle_panels, toggle_probe, deselect,
-    pause, step, restart,
-    help, log, about,
+    open,
+    save,
+    save_as,
+    screenshot,
+    quit,
+    undo,
+    redo,
+    view_shaded,
+    view_elements,
+    view_unshot,
+    frame_selection,
+    home,
+    toggle_panels,
+    toggle_probe,
+    deselect,
+    pause,
+    step,
+    restart,
+    help,
+    log,
+    about,
 };
 
 struct CommandInfo {

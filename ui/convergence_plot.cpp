@@ -28,7 +28,9 @@ std::string time_text(double seconds, double step) {
     return fmt::format("{:.{}f}", seconds, decimals);
 }
 
-std::string percent_text(double share) { return short_number(100 * share) + " %"; }
+std::string percent_text(double share) {
+    return short_number(100 * share) + " %";
+}
 
 } // namespace
 
@@ -82,19 +84,21 @@ void convergence_plot(const Snapshot& snapshot, double target_error, UiState& st
         const float x = std::floor(x_of(t));
         if (t > 0) draw->AddLine({x, low.y}, {x, high.y}, packed(colours::line, 0.45f));
         const auto words = time_text(t, step) + (t == 0 ? " s" : "");
-        if (x + 0.5f * text_width(words) < high.x + 8 * scale) text(t == 0 ? x : x - 0.5f * text_width(words), high.y + 3 * scale, colours::dim, words);
+        if (x + 0.5f * text_width(words) < high.x + 8 * scale)
+            text(t == 0 ? x : x - 0.5f * text_width(words), high.y + 3 * scale, colours::dim, words);
     }
     const float target_y = std::floor(y_of(target_error));
     for (float x = low.x; x < high.x; x += 7 * scale)
-        draw->AddLine({x, target_y}, {std::min(x + 3 * scale, high.x), target_y}, packed(colours::error_estimate, 0.75f));
+        draw->AddLine({x, target_y}, {std::min(x + 3 * scale, high.x), target_y},
+                      packed(colours::error_estimate, 0.75f));
 
     draw->PushClipRect(low, high, true);
     const auto curve = [&](double ConvergencePoint::*member, const ImVec4& colour) {
         const ConvergencePoint* before = nullptr;
         for (const auto& point : history) {
             if (before)
-                draw->AddLine({x_of(before->seconds), y_of(before->*member)}, {x_of(point.seconds), y_of(point.*member)},
-                              packed(colour), 1.7f * scale);
+                draw->AddLine({x_of(before->seconds), y_of(before->*member)},
+                              {x_of(point.seconds), y_of(point.*member)}, packed(colour), 1.7f * scale);
             before = &point;
         }
         if (before) draw->AddCircleFilled({x_of(before->seconds), y_of(before->*member)}, 2.8f * scale, packed(colour));
@@ -106,7 +110,8 @@ void convergence_plot(const Snapshot& snapshot, double target_error, UiState& st
     // The legend is the present value.
     float x = low.x;
     const auto legend = [&](const ImVec4& colour, const std::string& words) {
-        draw->AddRectFilled({x, corner.y + 0.5f * line}, {x + 12 * scale, corner.y + 0.5f * line + 2 * scale}, packed(colour));
+        draw->AddRectFilled({x, corner.y + 0.5f * line}, {x + 12 * scale, corner.y + 0.5f * line + 2 * scale},
+                            packed(colour));
         text(x + 17 * scale, corner.y, colours::text, words);
         x += 17 * scale + text_width(words) + 18 * scale;
     };
@@ -121,8 +126,8 @@ void convergence_plot(const Snapshot& snapshot, double target_error, UiState& st
             history, {}, [&](const ConvergencePoint& point) { return std::abs(point.seconds - seconds); });
         const float at_x = x_of(nearest->seconds);
         draw->AddLine({at_x, low.y}, {at_x, high.y}, packed(colours::text, 0.35f));
-        ImGui::SetTooltip("%.3f s\nunshot %s\nestimated error %s", nearest->seconds, percent_text(nearest->unshot_share).c_str(),
-                          percent_text(nearest->error).c_str());
+        ImGui::SetTooltip("%.3f s\nunshot %s\nestimated error %s", nearest->seconds,
+                          percent_text(nearest->unshot_share).c_str(), percent_text(nearest->error).c_str());
     }
 }
 

@@ -9,9 +9,13 @@
 namespace lueur {
 namespace {
 
-void centre_next() { ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, {0.5f, 0.5f}); }
+void centre_next() {
+    ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, {0.5f, 0.5f});
+}
 
-bool escape() { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)); }
+bool escape() {
+    return ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
+}
 
 constexpr ImGuiWindowFlags box_flags = ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings;
 
@@ -99,7 +103,8 @@ void help_dialog(UiState& state) {
 void about_dialog(UiState& state) {
     if (!state.about_open) return;
     centre_next();
-    if (ImGui::Begin("About Lueur", &state.about_open, box_flags | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_AlwaysAutoResize)) {
+    if (ImGui::Begin("About Lueur", &state.about_open,
+                     box_flags | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_AlwaysAutoResize)) {
         ImGui::PushFont(state.fonts.heading);
         ImGui::TextUnformatted("Lueur " LUEUR_VERSION);
         ImGui::PopFont();

@@ -12,20 +12,28 @@ namespace {
 
 const char* name_of(ClipRule rule) {
     switch (rule) {
-    case ClipRule::clamp: return "Clamp each component";
-    case ClipRule::keep_chromaticity: return "Keep the chromaticity";
-    case ClipRule::desaturate: return "Keep the luminance";
-    case ClipRule::scale_all: return "Scale the whole picture";
+    case ClipRule::clamp:
+        return "Clamp each component";
+    case ClipRule::keep_chromaticity:
+        return "Keep the chromaticity";
+    case ClipRule::desaturate:
+        return "Keep the luminance";
+    case ClipRule::scale_all:
+        return "Scale the whole picture";
     }
     return "";
 }
 
 const char* explanation(ClipRule rule) {
     switch (rule) {
-    case ClipRule::clamp: return "Red, green and blue above MAXDISPLAY are cut one by one; bright colours may change hue.";
-    case ClipRule::keep_chromaticity: return "Too bright a colour is darkened until it fits; its hue and saturation stay.";
-    case ClipRule::desaturate: return "Too bright a colour is mixed with grey of the same luminance until it fits.";
-    case ClipRule::scale_all: return "MAXDISPLAY is raised to the largest component in the picture: nothing is cut.";
+    case ClipRule::clamp:
+        return "Red, green and blue above MAXDISPLAY are cut one by one; bright colours may change hue.";
+    case ClipRule::keep_chromaticity:
+        return "Too bright a colour is darkened until it fits; its hue and saturation stay.";
+    case ClipRule::desaturate:
+        return "Too bright a colour is mixed with grey of the same luminance until it fits.";
+    case ClipRule::scale_all:
+        return "MAXDISPLAY is raised to the largest component in the picture: nothing is cut.";
     }
     return "";
 }
@@ -45,7 +53,8 @@ void grey_steps(const DisplaySettings& display, const UiState& state) {
         const auto text = short_number(luminance);
         const auto size = state.fonts.small->CalcTextSizeA(state.fonts.small->FontSize, 1e6f, 0, text.c_str());
         draw->AddText(state.fonts.small, state.fonts.small->FontSize,
-                      {x + 0.5f * (width - size.x), corner.y + height + 2 * state.scale}, packed(colours::dim), text.c_str());
+                      {x + 0.5f * (width - size.x), corner.y + height + 2 * state.scale}, packed(colours::dim),
+                      text.c_str());
     }
     ImGui::Dummy({width * steps, height + state.fonts.small->FontSize + 3 * state.scale});
     tooltip(state, "Grey of these luminances, cd/m², as it is shown now.");
@@ -87,11 +96,14 @@ std::optional<Edit> display_panel(const Document& document, const Snapshot&, UiS
         any = true;
     }
     state.layout_log.widget("lock");
-    tooltip(state, "On: an edit never rescales the picture, so that brighter looks brighter. Off: MAXDISPLAY follows each solution.");
+    tooltip(state, "On: an edit never rescales the picture, so that brighter looks brighter. Off: MAXDISPLAY follows "
+                   "each solution.");
 
     row_label(state, "Curve");
     int curve = display.curve == TransferCurve::srgb ? 0 : 1;
-    if (segmented(state, "curve", {{"sRGB", "IEC 61966-2-1, for monitors that are set to sRGB"}, {"Gamma", "A plain power law"}}, curve)) {
+    if (segmented(state, "curve",
+                  {{"sRGB", "IEC 61966-2-1, for monitors that are set to sRGB"}, {"Gamma", "A plain power law"}},
+                  curve)) {
         changed.curve = curve == 0 ? TransferCurve::srgb : TransferCurve::gamma;
         any = true;
     }
@@ -107,7 +119,8 @@ std::optional<Edit> display_panel(const Document& document, const Snapshot&, UiS
 
     row_label(state, "Too bright", explanation(display.clip));
     if (ImGui::BeginCombo("##clip", name_of(display.clip))) {
-        for (const auto rule : {ClipRule::clamp, ClipRule::keep_chromaticity, ClipRule::desaturate, ClipRule::scale_all}) {
+        for (const auto rule :
+             {ClipRule::clamp, ClipRule::keep_chromaticity, ClipRule::desaturate, ClipRule::scale_all}) {
             if (ImGui::Selectable(name_of(rule), rule == display.clip)) {
                 changed.clip = rule;
                 any = true;

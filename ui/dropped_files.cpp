@@ -14,7 +14,8 @@ std::string extension_of(const std::filesystem::path& file) {
     return text;
 }
 
-std::expected<SpectrumFile, std::string> read(const std::filesystem::path& file, const std::string& column, const Scene& scene) {
+std::expected<SpectrumFile, std::string> read(const std::filesystem::path& file, const std::string& column,
+                                              const Scene& scene) {
     auto spectrum = read_spectrum_csv(file, column);
     if (!spectrum) {
         const auto& errors = spectrum.error();
@@ -30,7 +31,9 @@ std::expected<SpectrumFile, std::string> read(const std::filesystem::path& file,
 
 } // namespace
 
-std::vector<std::string> picture_extensions() { return {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp", ".tga", ".exr", ".hdr"}; }
+std::vector<std::string> picture_extensions() {
+    return {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp", ".tga", ".exr", ".hdr"};
+}
 
 DroppedKind kind_of_dropped(const std::filesystem::path& file) {
     const auto extension = extension_of(file);
@@ -40,27 +43,29 @@ DroppedKind kind_of_dropped(const std::filesystem::path& file) {
     return std::ranges::count(picture_extensions(), extension) ? DroppedKind::picture : DroppedKind::unknown;
 }
 
-std::expected<Edit, std::string> texture_edit(const std::filesystem::path& file, const Scene& scene, MaterialIndex material) {
+std::expected<Edit, std::string> texture_edit(const std::filesystem::path& file, const Scene& scene,
+                                              MaterialIndex material) {
     auto texture = load_texture(scene, file);
     if (!texture) return std::unexpected(texture.error());
     return SetTexture{material, std::move(*texture)};
 }
 
-std::expected<Edit, std::string> reflectance_edit(const std::filesystem::path& file, const std::string& column, const Scene& scene,
-                                                  MaterialIndex material) {
+std::expected<Edit, std::string> reflectance_edit(const std::filesystem::path& file, const std::string& column,
+                                                  const Scene& scene, MaterialIndex material) {
     auto spectrum = read(file, column, scene);
     if (!spectrum) return std::unexpected(spectrum.error());
     return SetReflectance{material, std::move(*spectrum)};
 }
 
-std::expected<Edit, std::string> emission_edit(const std::filesystem::path& file, const std::string& column, const Scene& scene,
-                                               LuminaireIndex luminaire) {
+std::expected<Edit, std::string> emission_edit(const std::filesystem::path& file, const std::string& column,
+                                               const Scene& scene, LuminaireIndex luminaire) {
     auto spectrum = read(file, column, scene);
     if (!spectrum) return std::unexpected(spectrum.error());
     return SetEmissionSpectrum{luminaire, std::move(*spectrum)};
 }
 
-std::expected<Edit, std::string> edit_of_dropped(const std::filesystem::path& file, const Scene& scene, const std::optional<Probe>& target) {
+std::expected<Edit, std::string> edit_of_dropped(const std::filesystem::path& file, const Scene& scene,
+                                                 const std::optional<Probe>& target) {
     if (!target || at(target->material) >= scene.materials.size())
         return std::unexpected(file.filename().string() + ": drop it on the surface it is for");
     if (kind_of_dropped(file) == DroppedKind::picture) return texture_edit(file, scene, target->material);

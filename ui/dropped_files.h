@@ -17,13 +17,16 @@ DroppedKind kind_of_dropped(const std::filesystem::path& file); // by its name
 std::vector<std::string> picture_extensions();
 
 // Errors are one line for a person.
-std::expected<Edit, std::string> texture_edit(const std::filesystem::path& file, const Scene& scene, MaterialIndex material);
-std::expected<Edit, std::string> reflectance_edit(const std::filesystem::path& file, const std::string& column, const Scene& scene,
-                                                  MaterialIndex material);
-std::expected<Edit, std::string> emission_edit(const std::filesystem::path& file, const std::string& column, const Scene& scene,
-                                               LuminaireIndex luminaire);
+std::expected<Edit, std::string> texture_edit(const std::filesystem::path& file, const Scene& scene,
+                                              MaterialIndex material);
+std::expected<Edit, std::string> reflectance_edit(const std::filesystem::path& file, const std::string& column,
+                                                  const Scene& scene, MaterialIndex material);
+std::expected<Edit, std::string> emission_edit(const std::filesystem::path& file, const std::string& column,
+                                               const Scene& scene, LuminaireIndex luminaire);
 
-// A picture becomes the texture of the surface it fell on, a spectrum its reflectance, or the lamp's spectrum where it fell on a lamp.
-std::expected<Edit, std::string> edit_of_dropped(const std::filesystem::path& file, const Scene& scene, const std::optional<Probe>& target);
+// A picture becomes the texture of the surface it fell on, a spectrum its reflectance, or the lamp's spectrum where it
+// fell on a lamp.
+std::expected<Edit, std::string> edit_of_dropped(const std::filesystem::path& file, const Scene& scene,
+                                                 const std::optional<Probe>& target);
 
 } // namespace lueur

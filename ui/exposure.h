@@ -1,7 +1,8 @@
 // Which MAXDISPLAY the window uses.
 //
-// A scene that says max_display_auto gets it from its own picture: once when the first useful light has arrived and once more when
-// the solution has settled for the first time. After that it stays, whatever is edited, until the user asks or takes off the lock.
+// A scene that says max_display_auto gets it from its own picture: once when the first useful light has arrived and
+// once more when the solution has settled for the first time. After that it stays, whatever is edited, until the user
+// asks or takes off the lock.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// The colours of the unshot-energy view: viridis as a polynomial of degree 6 (after M. Zucker's fit of matplotlib's table), dark violet to yellow.
+// The colours of the unshot-energy view: viridis as a polynomial of degree 6 (after M. Zucker's fit of matplotlib's
+// table), dark violet to yellow.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -26,7 +26,8 @@ std::string size_text(std::uintmax_t bytes) {
 
 } // namespace
 
-void FileBrowser::open(std::string title, std::vector<std::string> extensions, bool saving, std::filesystem::path start) {
+void FileBrowser::open(std::string title, std::vector<std::string> extensions, bool saving,
+                       std::filesystem::path start) {
     title_ = std::move(title);
     extensions_ = std::move(extensions);
     saving_ = saving;
@@ -43,7 +44,8 @@ void FileBrowser::open(std::string title, std::vector<std::string> extensions, b
 void FileBrowser::list(std::filesystem::path folder) {
     std::error_code error;
     folder = std::filesystem::weakly_canonical(folder, error);
-    std::filesystem::directory_iterator files(folder, std::filesystem::directory_options::skip_permission_denied, error);
+    std::filesystem::directory_iterator files(folder, std::filesystem::directory_options::skip_permission_denied,
+                                              error);
     if (error) {
         complaint_ = folder.string() + ": " + error.message();
         return;
@@ -56,7 +58,9 @@ void FileBrowser::list(std::filesystem::path folder) {
     for (const auto& file : files) {
         Entry entry{file.path(), file.path().filename().string(), file.is_directory(error), {}};
         if (entry.name.starts_with('.')) continue;
-        if (!entry.folder && std::ranges::find(extensions_, lower(entry.path.extension().string())) == extensions_.end()) continue;
+        if (!entry.folder &&
+            std::ranges::find(extensions_, lower(entry.path.extension().string())) == extensions_.end())
+            continue;
         if (!entry.folder) entry.size = size_text(file.file_size(error));
         entries_.push_back(std::move(entry));
     }
@@ -98,7 +102,8 @@ std::optional<std::filesystem::path> FileBrowser::draw(UiState& state) {
     if (ImGui::InputText("##address", &address_, ImGuiInputTextFlags_EnterReturnsTrue)) offer(address_);
     state.layout_log.widget("browser:address");
 
-    const float footer = ImGui::GetFrameHeightWithSpacing() + (complaint_.empty() && !overwrite_ ? 0 : ImGui::GetTextLineHeightWithSpacing());
+    const float footer = ImGui::GetFrameHeightWithSpacing() +
+                         (complaint_.empty() && !overwrite_ ? 0 : ImGui::GetTextLineHeightWithSpacing());
     ImGui::PushStyleColor(ImGuiCol_ChildBg, ImVec4(0.125f, 0.125f, 0.125f, 1));
     ImGui::BeginChild("##files", {0, -footer - 4 * scale}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
     for (const auto& entry : entries_) {
@@ -117,10 +122,13 @@ std::optional<std::filesystem::path> FileBrowser::draw(UiState& state) {
         auto* draw = ImGui::GetWindowDrawList();
         const float x = low.x + 6 * scale, y = low.y + 2 * scale, line = ImGui::GetTextLineHeight();
         if (entry.folder) { // a folder: a tab and a body
-            draw->AddRectFilled({x, y + 2 * scale}, {x + 7 * scale, y + 6 * scale}, packed(colours::accent, 0.85f), 1 * scale);
-            draw->AddRectFilled({x, y + 4 * scale}, {x + 15 * scale, y + line - 2 * scale}, packed(colours::accent, 0.85f), 2 * scale);
+            draw->AddRectFilled({x, y + 2 * scale}, {x + 7 * scale, y + 6 * scale}, packed(colours::accent, 0.85f),
+                                1 * scale);
+            draw->AddRectFilled({x, y + 4 * scale}, {x + 15 * scale, y + line - 2 * scale},
+                                packed(colours::accent, 0.85f), 2 * scale);
         } else
-            draw->AddRectFilled({x + 2 * scale, y + 1 * scale}, {x + 13 * scale, y + line - 1 * scale}, packed(colours::dim, 0.7f), 2 * scale);
+            draw->AddRectFilled({x + 2 * scale, y + 1 * scale}, {x + 13 * scale, y + line - 1 * scale},
+                                packed(colours::dim, 0.7f), 2 * scale);
         draw->AddText({x + 23 * scale, low.y + 2 * scale}, packed(colours::text), entry.name.c_str());
         const float size_x = high.x - ImGui::CalcTextSize(entry.size.c_str()).x - 8 * scale;
         draw->AddText({size_x, low.y + 2 * scale}, packed(colours::dim), entry.size.c_str());
@@ -131,7 +139,8 @@ std::optional<std::filesystem::path> FileBrowser::draw(UiState& state) {
     ImGui::PopStyleColor();
 
     if (!complaint_.empty()) ImGui::TextColored(colours::error, "%s", complaint_.c_str());
-    if (overwrite_) ImGui::TextColored(colours::warning, "%s is there already. Press Overwrite to replace it.", name_.c_str());
+    if (overwrite_)
+        ImGui::TextColored(colours::warning, "%s is there already. Press Overwrite to replace it.", name_.c_str());
     const float button = 96 * scale, gap = ImGui::GetStyle().ItemSpacing.x;
     ImGui::SetNextItemWidth(-2 * (button + gap));
     const bool entered = ImGui::InputTextWithHint("##name", saving_ ? "Name of the scene" : "File name", &name_,
@@ -149,7 +158,9 @@ std::optional<std::filesystem::path> FileBrowser::draw(UiState& state) {
     ImGui::EndDisabled();
     state.layout_log.widget("browser:action");
     ImGui::SameLine();
-    if (ImGui::Button("Cancel", {button, 0}) || (!appearing_ && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)))) stay = false;
+    if (ImGui::Button("Cancel", {button, 0}) ||
+        (!appearing_ && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))))
+        stay = false;
     appearing_ = false;
     if (go_to) list(*go_to);
     if (chosen || !stay) {

@@ -5,11 +5,21 @@
 
 namespace lueur {
 
-void free_texture(GLuint name) { glDeleteTextures(1, &name); }
-void free_buffer(GLuint name) { glDeleteBuffers(1, &name); }
-void free_framebuffer(GLuint name) { glDeleteFramebuffers(1, &name); }
-void free_vertex_array(GLuint name) { glDeleteVertexArrays(1, &name); }
-void free_program(GLuint name) { glDeleteProgram(name); }
+void free_texture(GLuint name) {
+    glDeleteTextures(1, &name);
+}
+void free_buffer(GLuint name) {
+    glDeleteBuffers(1, &name);
+}
+void free_framebuffer(GLuint name) {
+    glDeleteFramebuffers(1, &name);
+}
+void free_vertex_array(GLuint name) {
+    glDeleteVertexArrays(1, &name);
+}
+void free_program(GLuint name) {
+    glDeleteProgram(name);
+}
 
 GlTexture new_texture() {
     GLuint name = 0;
@@ -51,8 +61,8 @@ std::expected<GLuint, std::string> compile(GLenum kind, std::string_view defines
 
 } // namespace
 
-std::expected<GlProgram, std::string> make_program(std::string_view defines, std::string_view vertex, std::string_view geometry,
-                                                   std::string_view fragment) {
+std::expected<GlProgram, std::string> make_program(std::string_view defines, std::string_view vertex,
+                                                   std::string_view geometry, std::string_view fragment) {
     GlProgram program(glCreateProgram());
     std::vector<GLuint> shaders;
     std::string complaint;

@@ -49,7 +49,7 @@ GlFramebuffer new_framebuffer();
 GlVertexArray new_vertex_array();
 
 // `defines`: lines put after #version 330 core. An empty geometry shader is none. The error is the compiler's own text.
-std::expected<GlProgram, std::string> make_program(std::string_view defines, std::string_view vertex, std::string_view geometry,
-                                                   std::string_view fragment);
+std::expected<GlProgram, std::string> make_program(std::string_view defines, std::string_view vertex,
+                                                   std::string_view geometry, std::string_view fragment);
 
 } // namespace lueur

@@ -13,7 +13,7 @@ public:
     LayoutLog(); // reads the environment
     bool enabled() const { return !file_.empty(); }
 
-    void widget(const std::string& name);                                      // the last ImGui item
+    void widget(const std::string& name);                                       // the last ImGui item
     void area(const std::string& name, float x0, float y0, float x1, float y1); // pixels of the window
     void fact(const std::string& name, std::string json_value);
     void end_frame();

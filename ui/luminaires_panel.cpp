@@ -15,10 +15,14 @@ namespace {
 
 std::string unit_text(PowerUnit unit) {
     switch (unit) {
-    case PowerUnit::lumen: return "lm";
-    case PowerUnit::watt: return "W";
-    case PowerUnit::exitance: return "W/m²";
-    case PowerUnit::radiance: return "W/m²sr";
+    case PowerUnit::lumen:
+        return "lm";
+    case PowerUnit::watt:
+        return "W";
+    case PowerUnit::exitance:
+        return "W/m²";
+    case PowerUnit::radiance:
+        return "W/m²sr";
     }
     return {};
 }
@@ -52,10 +56,12 @@ std::optional<Edit> spectrum_controls(LuminaireIndex index, const Luminaire& lum
         if (kind == 0) edit = SetEmissionSpectrum{index, Flat{}};
         if (kind == 1) edit = SetEmissionSpectrum{index, Blackbody{3000}};
         if (kind == 2) edit = SetEmissionSpectrum{index, linear_rgb(luminaire.spectrum)};
-        if (kind == 3) state.file_request = FileRequest{FilePurpose::emission_spectrum, {}, index, state.spectrum_column};
+        if (kind == 3)
+            state.file_request = FileRequest{FilePurpose::emission_spectrum, {}, index, state.spectrum_column};
     }
     if (const auto* body = std::get_if<Blackbody>(&luminaire.spectrum)) {
-        row_label(state, "Temperature", "Candle 1900 K, incandescent 2700 K, halogen 3200 K, noon sun 5500 K, sky 10000 K.");
+        row_label(state, "Temperature",
+                  "Candle 1900 K, incandescent 2700 K, halogen 3200 K, noon sun 5500 K, sky 10000 K.");
         double kelvin = body->kelvin;
         if (log_slider("##kelvin", kelvin, 1000, 25000, "%.0f K"))
             edit = SetEmissionSpectrum{index, Blackbody{std::clamp(kelvin, 1000.0, 25000.0)}};
@@ -63,13 +69,15 @@ std::optional<Edit> spectrum_controls(LuminaireIndex index, const Luminaire& lum
     } else if (const auto* rgb = std::get_if<Rgb>(&luminaire.spectrum)) {
         row_label(state, "Colour", "Only its proportions count in lm and W.");
         auto shown = encoded(*rgb / std::max({rgb->r, rgb->g, rgb->b, 1e-12}));
-        if (ImGui::ColorEdit3("##colour", &shown.x, ImGuiColorEditFlags_DisplayHex | ImGuiColorEditFlags_PickerHueWheel)) {
+        if (ImGui::ColorEdit3("##colour", &shown.x,
+                              ImGuiColorEditFlags_DisplayHex | ImGuiColorEditFlags_PickerHueWheel)) {
             const double size = std::max({rgb->r, rgb->g, rgb->b, 1e-12});
             const Rgb colour = decoded(shown) * size;
             if (std::max({colour.r, colour.g, colour.b}) > 0) edit = SetEmissionSpectrum{index, colour};
         }
     } else if (const auto* file = std::get_if<SpectrumFile>(&luminaire.spectrum)) {
-        if (file_row(state, *file)) state.file_request = FileRequest{FilePurpose::emission_spectrum, {}, index, state.spectrum_column};
+        if (file_row(state, *file))
+            state.file_request = FileRequest{FilePurpose::emission_spectrum, {}, index, state.spectrum_column};
     }
     spectrum_plot(state, "##curve", curve_of(luminaire.spectrum), 0);
     return edit;
@@ -79,16 +87,19 @@ std::optional<Edit> luminaire_controls(const Scene& scene, LuminaireIndex index,
     std::optional<Edit> edit;
     const auto& luminaire = scene.luminaires[at(index)];
     const double lumens = luminous_flux(scene, luminaire), watts = radiant_flux(scene, luminaire);
-    ImGui::TextColored(colours::dim, "%s lm   %s W   %s lm/W", short_number(lumens).c_str(), short_number(watts).c_str(),
-                       watts > 0 ? short_number(lumens / watts).c_str() : "-");
-    tooltip(state, "Light given now, dimmer included. Watts are radiated watts; lm/W is the efficacy of the radiation.");
+    ImGui::TextColored(colours::dim, "%s lm   %s W   %s lm/W", short_number(lumens).c_str(),
+                       short_number(watts).c_str(), watts > 0 ? short_number(lumens / watts).c_str() : "-");
+    tooltip(state,
+            "Light given now, dimmer included. Watts are radiated watts; lm/W is the efficacy of the radiation.");
 
-    row_label(state, "Power", "At 100 % of the dimmer. lm and W count the whole luminaire; W/m² each square metre that emits.");
+    row_label(state, "Power",
+              "At 100 % of the dimmer. lm and W count the whole luminaire; W/m² each square metre that emits.");
     const float unit_width = 84 * state.scale;
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - unit_width - ImGui::GetStyle().ItemInnerSpacing.x);
     double power = luminaire.power;
     const double nothing = 0, speed_scale = std::max(std::abs(power), 1e-3) * 0.005;
-    if (ImGui::DragScalar("##power", ImGuiDataType_Double, &power, static_cast<float>(speed_scale), &nothing, nullptr, "%.5g") &&
+    if (ImGui::DragScalar("##power", ImGuiDataType_Double, &power, static_cast<float>(speed_scale), &nothing, nullptr,
+                          "%.5g") &&
         power >= 0 && std::isfinite(power))
         edit = SetPower{index, luminaire.unit, power};
     state.layout_log.widget("power:" + luminaire.name);
@@ -98,20 +109,24 @@ std::optional<Edit> luminaire_controls(const Scene& scene, LuminaireIndex index,
     if (ImGui::BeginCombo("##unit", unit_text(luminaire.unit).c_str())) {
         for (const auto unit : {PowerUnit::lumen, PowerUnit::watt, PowerUnit::exitance, PowerUnit::radiance})
             if (ImGui::Selectable(unit_text(unit).c_str(), unit == luminaire.unit) && unit != luminaire.unit)
-                if (const auto same_light = converted_power(scene, index, unit)) edit = SetPower{index, unit, *same_light};
+                if (const auto same_light = converted_power(scene, index, unit))
+                    edit = SetPower{index, unit, *same_light};
         ImGui::EndCombo();
     }
     if (auto changed = spectrum_controls(index, luminaire, state)) edit = changed;
 
     row_label(state, "Emits from");
     int side = static_cast<int>(luminaire.side);
-    if (segmented(state, "emit_side", {{"Front", ""}, {"Back", ""}, {"Both", "The power is shared by both sides"}}, side))
+    if (segmented(state, "emit_side", {{"Front", ""}, {"Back", ""}, {"Both", "The power is shared by both sides"}},
+                  side))
         edit = SetEmitSide{index, static_cast<EmitSide>(side)};
-    if (ImGui::Button("Select its surface", {-1, 0}) && !luminaire.objects.empty()) state.selected = luminaire.objects.front();
+    if (ImGui::Button("Select its surface", {-1, 0}) && !luminaire.objects.empty())
+        state.selected = luminaire.objects.front();
     return edit;
 }
 
-// Dims all luminaires by one factor. While it is dragged the solver sees a preview; letting go makes it one step of undo.
+// Dims all luminaires by one factor. While it is dragged the solver sees a preview; letting go makes it one step of
+// undo.
 std::optional<Edit> master_dimmer(const Scene& scene, UiState& state) {
     row_label(state, "All", "Dims every luminaire by the same factor. Let go to keep it.");
     float percent = 100 * state.master;
@@ -175,10 +190,9 @@ std::optional<Edit> luminaire_row(const Scene& scene, std::size_t i, UiState& st
     const bool open = state.luminaire && at(*state.luminaire) == i;
     const float scale = state.scale, height = ImGui::GetFrameHeight();
 
-    // Name: a click unfolds it.
+    // Name, dimmer, mute and solo in a row; a click on the name unfolds the rest.
     const auto corner = ImGui::GetCursorScreenPos();
-    const float small = 24 * scale, gap = 3 * scale;
-    const float name_width = ImGui::GetContentRegionAvail().x - 2 * (small + gap);
+    const float small = 24 * scale, gap = 3 * scale, name_width = 112 * scale;
     if (ImGui::Selectable("##name", open, ImGuiSelectableFlags_AllowItemOverlap, {name_width, height}))
         state.luminaire = open ? std::nullopt : std::optional(index);
     state.layout_log.widget("luminaire:" + luminaire.name);
@@ -189,9 +203,17 @@ std::optional<Edit> luminaire_row(const Scene& scene, std::size_t i, UiState& st
     draw->AddCircle(centre, 6.5f * scale, IM_COL32(255, 255, 255, 60));
     draw->PushClipRect(corner, {corner.x + name_width - 4 * scale, corner.y + height}, true);
     const ImVec2 text_place{corner.x + 28 * scale, corner.y + 0.5f * (height - ImGui::GetTextLineHeight())};
-    draw->AddText(open ? state.fonts.heading : state.fonts.regular, ImGui::GetFontSize(), text_place, packed(colours::text),
-                  luminaire.name.c_str());
+    draw->AddText(open ? state.fonts.heading : state.fonts.regular, ImGui::GetFontSize(), text_place,
+                  packed(colours::text), luminaire.name.c_str());
     draw->PopClipRect();
+    tooltip(state, luminaire.name.c_str());
+    ImGui::SameLine(0, gap);
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - 2 * (small + gap));
+    auto percent = static_cast<float>(100 * luminaire.dimmer);
+    if (ImGui::SliderFloat("##dimmer", &percent, 0, 100, "%.1f %%") && percent >= 0)
+        edit = SetDimmer{index, static_cast<double>(percent) / 100};
+    state.layout_log.widget("dimmer:" + luminaire.name);
+    tooltip(state, "Dimmer. Ctrl-click to type; more than 100 % is allowed there.");
     const bool dark = luminaire.dimmer == 0;
     ImGui::SameLine(0, gap);
     if (small_toggle("mute", "M", dark, colours::dim, small)) {
@@ -206,19 +228,13 @@ std::optional<Edit> luminaire_row(const Scene& scene, std::size_t i, UiState& st
     state.layout_log.widget("mute:" + luminaire.name);
     tooltip(state, "Mute: off, and back to where it was");
     ImGui::SameLine(0, gap);
-    const bool alone = !dark && scene.luminaires.size() > 1 && std::ranges::count_if(scene.luminaires, [](const Luminaire& l) {
-                                                                  return l.dimmer > 0;
-                                                              }) == 1;
+    const bool alone = !dark && scene.luminaires.size() > 1 &&
+                       std::ranges::count_if(scene.luminaires, [](const Luminaire& l) { return l.dimmer > 0; }) == 1;
     ImGui::BeginDisabled(scene.luminaires.size() < 2);
     if (small_toggle("solo", "S", alone, colours::accent, small)) edit = solo(scene, i, state);
     ImGui::EndDisabled();
     tooltip(state, "Solo: all others off, and back");
 
-    row_label(state, "Dimmer", "Ctrl-click to type; more than 100 % is allowed there.");
-    auto percent = static_cast<float>(100 * luminaire.dimmer);
-    if (ImGui::SliderFloat("##dimmer", &percent, 0, 100, "%.1f %%") && percent >= 0)
-        edit = SetDimmer{index, static_cast<double>(percent) / 100};
-    state.layout_log.widget("dimmer:" + luminaire.name);
     if (open) {
         if (auto changed = luminaire_controls(scene, index, state)) edit = changed;
         ImGui::Dummy({0, 4 * scale});
@@ -245,7 +261,9 @@ std::optional<Edit> luminaires_panel(const Document& document, const Snapshot&, 
         ImGui::Separator();
     }
     for (std::size_t i = 0; i < scene.luminaires.size(); ++i) {
-        if (!state.luminaire_filter.empty() && scene.luminaires[i].name.find(state.luminaire_filter) == std::string::npos) continue;
+        if (!state.luminaire_filter.empty() &&
+            scene.luminaires[i].name.find(state.luminaire_filter) == std::string::npos)
+            continue;
         ImGui::PushID(static_cast<int>(i));
         if (auto changed = luminaire_row(scene, i, state)) edit = changed;
         ImGui::PopID();

@@ -10,7 +10,9 @@ int run(const lueur::ExitNow& exit) {
     std::fputs(exit.text.c_str(), exit.code == 0 ? stdout : stderr);
     return exit.code;
 }
-int run(const lueur::EditorCommand& command) { return lueur::run_editor(command); }
+int run(const lueur::EditorCommand& command) {
+    return lueur::run_editor(command);
+}
 using lueur::run;
 
 } // namespace

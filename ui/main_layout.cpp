@@ -12,8 +12,9 @@
 namespace lueur {
 namespace {
 
-constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                                   ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoBackground;
+constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
+                                   ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoBackground;
 
 struct Area {
     float x, y, width, height;
@@ -27,7 +28,8 @@ bool begin(const char* name, const Area& area, ImGuiWindowFlags more = 0) {
 
 // The ground is the window's own (Window::end_frame); a line is all that parts the panels.
 void divide(const Area& area) {
-    ImGui::GetBackgroundDrawList()->AddRectFilled({area.x, area.y}, {area.x + area.width, area.y + area.height}, packed(colours::backdrop));
+    ImGui::GetBackgroundDrawList()->AddRectFilled({area.x, area.y}, {area.x + area.width, area.y + area.height},
+                                                  packed(colours::backdrop));
 }
 
 enum class Across { columns, rows };
@@ -53,7 +55,8 @@ void splitter(const char* name, const Area& line, Across across, float& value, f
     }
     if (active) {
         const auto delta = ImGui::GetIO().MouseDelta;
-        value = std::clamp(value - (across == Across::columns ? delta.x : delta.y) / scale, least, std::max(least, most));
+        value =
+            std::clamp(value - (across == Across::columns ? delta.x : delta.y) / scale, least, std::max(least, most));
     }
     ImGui::End();
     ImGui::PopStyleVar(2);
@@ -78,10 +81,12 @@ void toolbar(UiState& state, const Snapshot& snapshot) {
         state.layout_log.widget(std::string("toolbar:") + name);
         ImGui::SameLine(0, 2 * scale);
     };
-    button("Frame", "Move the camera so that the selection, or everything, fills the picture (F)", Command::frame_selection);
+    button("Frame", "Move the camera so that the selection, or everything, fills the picture (F)",
+           Command::frame_selection);
     button("Home", "The scene's own camera (Home)", Command::home);
     button(state.paused ? "Go on" : "Pause", "Space", Command::pause);
-    button("Save picture", "A PNG in the current folder, with how it was made in its metadata (P or F12)", Command::screenshot);
+    button("Save picture", "A PNG in the current folder, with how it was made in its metadata (P or F12)",
+           Command::screenshot);
     (void)snapshot;
 }
 
@@ -108,7 +113,8 @@ std::vector<Edit> main_layout(const Document& document, const Snapshot& snapshot
     const float status_height = std::floor(ImGui::GetTextLineHeight() + 10 * scale);
     const Area all{screen->WorkPos.x, screen->WorkPos.y, screen->WorkSize.x, screen->WorkSize.y - status_height};
     const bool panels = layout.panels_visible;
-    const float column = panels ? std::floor(std::clamp(layout.column_width * scale, 200 * scale, 0.6f * all.width)) : 0;
+    const float column =
+        panels ? std::floor(std::clamp(layout.column_width * scale, 200 * scale, 0.6f * all.width)) : 0;
     const float strip = panels ? std::floor(std::clamp(layout.strip_height * scale, 80 * scale, 0.6f * all.height)) : 0;
     const float gap = panels ? line : 0;
     const float left = std::floor(all.width - column - gap);
@@ -135,11 +141,13 @@ std::vector<Edit> main_layout(const Document& document, const Snapshot& snapshot
         ImGui::End();
 
         const float probe_width = std::min(330 * scale, 0.42f * left);
-        begin("##plot", {all.x, all.y + all.height - strip, left - probe_width - gap, strip}, ImGuiWindowFlags_NoScrollWithMouse);
+        begin("##plot", {all.x, all.y + all.height - strip, left - probe_width - gap, strip},
+              ImGuiWindowFlags_NoScrollWithMouse);
         const auto room = ImGui::GetContentRegionAvail();
         convergence_plot(snapshot, document.scene().solve.target_error, state, room.x, room.y);
         ImGui::End();
-        begin("##probe", {all.x + left - probe_width, all.y + all.height - strip, probe_width, strip}, ImGuiWindowFlags_NoScrollWithMouse);
+        begin("##probe", {all.x + left - probe_width, all.y + all.height - strip, probe_width, strip},
+              ImGuiWindowFlags_NoScrollWithMouse);
         probe_readout(document, state);
         ImGui::End();
         divide({all.x + left, all.y, gap, all.height});
@@ -148,10 +156,10 @@ std::vector<Edit> main_layout(const Document& document, const Snapshot& snapshot
         divide({x, all.y + all.height - lower - gap, column, gap});
         splitter("##split_column", {all.x + left, all.y, gap, all.height}, Across::columns, layout.column_width, 260,
                  0.6f * all.width / scale, scale);
-        splitter("##split_strip", {all.x, all.y + all.height - strip - gap, left, gap}, Across::rows, layout.strip_height, 100,
-                 0.6f * all.height / scale, scale);
-        splitter("##split_panels", {x, all.y + all.height - lower - gap, column, gap}, Across::rows, layout.lower_height, 140,
-                 0.75f * all.height / scale, scale);
+        splitter("##split_strip", {all.x, all.y + all.height - strip - gap, left, gap}, Across::rows,
+                 layout.strip_height, 100, 0.6f * all.height / scale, scale);
+        splitter("##split_panels", {x, all.y + all.height - lower - gap, column, gap}, Across::rows,
+                 layout.lower_height, 140, 0.75f * all.height / scale, scale);
     }
 
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8 * scale, 5 * scale});
@@ -162,14 +170,14 @@ std::vector<Edit> main_layout(const Document& document, const Snapshot& snapshot
     ImGui::PopStyleVar();
 
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
-    begin("##picture", {all.x, all.y + bar, left, all.height - bar - strip - gap},
-          ImGuiWindowFlags_NoScrollWithMouse);
+    begin("##picture", {all.x, all.y + bar, left, all.height - bar - strip - gap}, ImGuiWindowFlags_NoScrollWithMouse);
     if (auto edit = draw_viewport()) edits.push_back(std::move(*edit));
     ImGui::End();
     ImGui::PopStyleVar();
 
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {12 * scale, 5 * scale});
-    ImGui::GetBackgroundDrawList()->AddRectFilled({all.x, all.y + all.height}, {all.x + all.width, all.y + all.height + status_height},
+    ImGui::GetBackgroundDrawList()->AddRectFilled({all.x, all.y + all.height},
+                                                  {all.x + all.width, all.y + all.height + status_height},
                                                   packed({0.125f, 0.125f, 0.125f, 1}));
     begin("##status", {all.x, all.y + all.height, all.width, status_height}, ImGuiWindowFlags_NoScrollWithMouse);
     status_line(document, snapshot, state);

@@ -1,4 +1,5 @@
-// Where everything is: viewport with its toolbar, the column of panels at the right, the strip with plot and probe, the status line.
+// Where everything is: viewport with its toolbar, the column of panels at the right, the strip with plot and probe, the
+// status line.
 #pragma once
 
 #include <functional>
@@ -11,7 +12,8 @@
 
 namespace lueur {
 
-// Draws the whole area below the menu bar. `draw_viewport` fills what is left for the picture and may return a camera edit.
+// Draws the whole area below the menu bar. `draw_viewport` fills what is left for the picture and may return a camera
+// edit.
 std::vector<Edit> main_layout(const Document& document, const Snapshot& snapshot, UiState& state,
                               const std::function<std::optional<Edit>()>& draw_viewport);
 

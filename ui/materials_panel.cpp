@@ -13,7 +13,9 @@ namespace lueur {
 namespace {
 
 bool contains(const std::string& text, const std::string& part) {
-    const auto same = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b)); };
+    const auto same = [](char a, char b) {
+        return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+    };
     return part.empty() || std::search(text.begin(), text.end(), part.begin(), part.end(), same) != text.end();
 }
 
@@ -21,7 +23,9 @@ int users(const Scene& scene, MaterialIndex material) {
     return static_cast<int>(std::ranges::count(scene.objects, material, &Object::material));
 }
 
-std::string reflectance_text(const Material& material) { return fmt::format("{:.2f}", luminous_reflectance(material.reflectance)); }
+std::string reflectance_text(const Material& material) {
+    return fmt::format("{:.2f}", luminous_reflectance(material.reflectance));
+}
 
 // One material a row: swatch, name, luminous reflectance.
 void material_list(const Scene& scene, UiState& state) {
@@ -50,7 +54,8 @@ void material_list(const Scene& scene, UiState& state) {
             const auto colour = encoded(linear_rgb(material.reflectance));
             const float edge = row_height - 8 * state.scale;
             const ImVec2 low{corner.x + 4 * state.scale, corner.y + 4 * state.scale};
-            draw->AddRectFilled(low, {low.x + edge, low.y + edge}, packed({colour.r, colour.g, colour.b, 1}), 3 * state.scale);
+            draw->AddRectFilled(low, {low.x + edge, low.y + edge}, packed({colour.r, colour.g, colour.b, 1}),
+                                3 * state.scale);
             draw->AddRect(low, {low.x + edge, low.y + edge}, IM_COL32(255, 255, 255, 46), 3 * state.scale);
             const float text_y = corner.y + 4 * state.scale;
             const auto figure = reflectance_text(material);
@@ -72,12 +77,17 @@ void material_list(const Scene& scene, UiState& state) {
 
 std::optional<Edit> rgb_controls(MaterialIndex index, const Rgb& rgb, UiState& state) {
     std::optional<Edit> edit;
-    const auto paint = [&](const Rgb& value) { edit = SetReflectance{index, Reflectance(glm::clamp(value, 0.0, 1.0))}; };
-    row_label(state, "Colour", "As seen under daylight (CIE D65). The picker works in the display's own encoding; the three sliders below "
-                               "are the linear reflectances that the solver is given.");
+    const auto paint = [&](const Rgb& value) {
+        edit = SetReflectance{index, Reflectance(glm::clamp(value, 0.0, 1.0))};
+    };
+    row_label(
+        state, "Colour",
+        "As seen under daylight (CIE D65). The picker works in the display's own encoding; the three sliders below "
+        "are the linear reflectances that the solver is given.");
     auto shown = encoded(rgb);
     if (ImGui::ColorEdit3("##colour", &shown.x,
-                          ImGuiColorEditFlags_NoLabel | ImGuiColorEditFlags_DisplayHex | ImGuiColorEditFlags_PickerHueWheel))
+                          ImGuiColorEditFlags_NoLabel | ImGuiColorEditFlags_DisplayHex |
+                              ImGuiColorEditFlags_PickerHueWheel))
         paint(decoded(shown));
     state.layout_log.widget("reflectance:picker");
     static constexpr const char* names[] = {"Red", "Green", "Blue"};
@@ -106,9 +116,11 @@ std::optional<Edit> reflectance_controls(MaterialIndex index, const Material& ma
                    {"Spectrum", "Measured values from a .csv file"}},
                   kind)) {
         const auto rgb = glm::clamp(linear_rgb(material.reflectance), 0.0, 1.0);
-        if (kind == 0) edit = SetReflectance{index, Reflectance(std::clamp(luminous_reflectance(material.reflectance), 0.0, 1.0))};
+        if (kind == 0)
+            edit = SetReflectance{index, Reflectance(std::clamp(luminous_reflectance(material.reflectance), 0.0, 1.0))};
         if (kind == 1) edit = SetReflectance{index, Reflectance(rgb)};
-        if (kind == 2) state.file_request = FileRequest{FilePurpose::reflectance_spectrum, index, {}, state.spectrum_column};
+        if (kind == 2)
+            state.file_request = FileRequest{FilePurpose::reflectance_spectrum, index, {}, state.spectrum_column};
     }
     if (const auto* number = std::get_if<double>(&material.reflectance)) {
         row_label(state, "Share reflected", "0 is black, 1 reflects everything. Ctrl-click to type.");
@@ -119,7 +131,8 @@ std::optional<Edit> reflectance_controls(MaterialIndex index, const Material& ma
     } else if (const auto* rgb = std::get_if<Rgb>(&material.reflectance)) {
         if (auto changed = rgb_controls(index, *rgb, state)) edit = changed;
     } else if (const auto* file = std::get_if<SpectrumFile>(&material.reflectance)) {
-        if (file_row(state, *file)) state.file_request = FileRequest{FilePurpose::reflectance_spectrum, index, {}, state.spectrum_column};
+        if (file_row(state, *file))
+            state.file_request = FileRequest{FilePurpose::reflectance_spectrum, index, {}, state.spectrum_column};
     }
     return edit;
 }
@@ -133,12 +146,14 @@ std::optional<Edit> material_controls(const Scene& scene, MaterialIndex index, U
     ImGui::TextColored(colours::dim, "reflects %.1f %% of daylight   used by %d object%s",
                        100 * luminous_reflectance(material.reflectance), count, count == 1 ? "" : "s");
     ImGui::PopFont();
-    if (state.selected && at(*state.selected) < scene.objects.size() && scene.objects[at(*state.selected)].material == index &&
-        count > 1) {
+    if (state.selected && at(*state.selected) < scene.objects.size() &&
+        scene.objects[at(*state.selected)].material == index && count > 1) {
         const auto text = "Give " + scene.objects[at(*state.selected)].name + " its own paint";
         if (ImGui::Button(text.c_str(), {-1, 0})) edit = GiveOwnMaterial{*state.selected};
         state.layout_log.widget("own_material");
-        tooltip(state, "Copies this material for the selected object alone, so that repainting it leaves the others as they are.");
+        tooltip(
+            state,
+            "Copies this material for the selected object alone, so that repainting it leaves the others as they are.");
     }
 
     ImGui::BeginDisabled(material.texture.has_value());
@@ -147,19 +162,23 @@ std::optional<Edit> material_controls(const Scene& scene, MaterialIndex index, U
     if (material.texture) tooltip(state, "The mean of the texture. Take the texture off to paint.");
     spectrum_plot(state, "##curve", curve_of(material.reflectance), 1);
 
-    row_label(state, "Texture", "A picture whose texels multiply the light that falls on them. Drop a picture file on a surface to use it.");
+    row_label(
+        state, "Texture",
+        "A picture whose texels multiply the light that falls on them. Drop a picture file on a surface to use it.");
     const auto name = material.texture ? material.texture->path : std::string("none");
     const float button = 76 * state.scale;
     const auto edge = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x;
     ImGui::TextUnformatted(name.c_str());
     if (material.texture) {
         row_label(state, "");
-        if (ImGui::Button("Change...", {button, 0})) state.file_request = FileRequest{FilePurpose::texture, index, {}, {}};
+        if (ImGui::Button("Change...", {button, 0}))
+            state.file_request = FileRequest{FilePurpose::texture, index, {}, {}};
         ImGui::SameLine();
         if (ImGui::Button("Take off", {button, 0})) edit = SetTexture{index, std::nullopt};
     } else {
         ImGui::SameLine(std::max(edge - button, ImGui::GetCursorPosX()));
-        if (ImGui::Button("Choose...", {button, 0})) state.file_request = FileRequest{FilePurpose::texture, index, {}, {}};
+        if (ImGui::Button("Choose...", {button, 0}))
+            state.file_request = FileRequest{FilePurpose::texture, index, {}, {}};
     }
     row_label(state, "Two-sided", "Off: the back is black and does not reflect.");
     bool two_sided = material.two_sided;
@@ -177,22 +196,27 @@ std::optional<Edit> materials_panel(const Document& document, const Snapshot&, U
         return {};
     }
     if (state.material && at(*state.material) >= scene.materials.size()) state.material.reset();
-    std::optional<Edit> edit;
-    if (state.selected && at(*state.selected) < scene.objects.size()) {
+    const auto list = [&] {
+        ImGui::SetNextItemWidth(-1);
+        ImGui::InputTextWithHint("##search", "Search materials", &state.material_filter);
+        material_list(scene, state);
+    };
+    if (state.selected && at(*state.selected) < scene.objects.size()) { // what was picked comes first
         const auto& object = scene.objects[at(*state.selected)];
+        if (!state.material) state.material = object.material;
         ImGui::TextColored(colours::accent, "%s", object.name.c_str());
         ImGui::SameLine();
-        ImGui::TextColored(colours::dim, "selected");
-        if (!state.material) state.material = object.material;
+        ImGui::TextColored(colours::dim, "%s",
+                           object.material == *state.material ? "selected" : "selected, of another material");
+        auto edit = material_controls(scene, *state.material, state);
+        section(state, "All materials");
+        list();
+        return edit;
     }
-    ImGui::SetNextItemWidth(-1);
-    ImGui::InputTextWithHint("##search", "Search materials", &state.material_filter);
-    material_list(scene, state);
-    if (state.material)
-        edit = material_controls(scene, *state.material, state);
-    else
-        ImGui::TextWrapped("Click a surface in the picture, or a material in the list, to repaint it.");
-    return edit;
+    list();
+    if (state.material) return material_controls(scene, *state.material, state);
+    ImGui::TextWrapped("Click a surface in the picture, or a material in the list, to repaint it.");
+    return {};
 }
 
 } // namespace lueur

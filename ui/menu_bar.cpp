@@ -78,7 +78,8 @@ double menu_bar(const Document& document, const Preferences& preferences, UiStat
         item(state, Command::toggle_probe, state.layout.probe_at_cursor);
         if (ImGui::BeginMenu("Size of the interface")) {
             for (const double scale : {0.75, 0.9, 1.0, 1.1, 1.25, 1.5, 1.75, 2.0, 2.5})
-                if (ImGui::MenuItem(fmt::format("{:.0f} %", 100 * scale).c_str(), nullptr, std::abs(preferences.scale - scale) < 0.01))
+                if (ImGui::MenuItem(fmt::format("{:.0f} %", 100 * scale).c_str(), nullptr,
+                                    std::abs(preferences.scale - scale) < 0.01))
                     chosen_scale = scale;
             ImGui::EndMenu();
         }

@@ -10,9 +10,12 @@ namespace {
 
 ImVec4 colour(Severity severity) {
     switch (severity) {
-    case Severity::note: return colours::text;
-    case Severity::warning: return colours::warning;
-    case Severity::error: return colours::error;
+    case Severity::note:
+        return colours::text;
+    case Severity::warning:
+        return colours::warning;
+    case Severity::error:
+        return colours::error;
     }
     return colours::text;
 }
@@ -27,9 +30,12 @@ void Messages::add(Severity severity, std::string text, double now) {
 
 double display_seconds(Severity severity) {
     switch (severity) {
-    case Severity::note: return 5;
-    case Severity::warning: return 9;
-    case Severity::error: return 14;
+    case Severity::note:
+        return 5;
+    case Severity::warning:
+        return 9;
+    case Severity::error:
+        return 14;
     }
     return 5;
 }
@@ -51,13 +57,13 @@ std::optional<double> draw_notes(const Messages& messages, double now, float rig
         ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 6 * scale);
         ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4(0.19f, 0.19f, 0.19f, 1));
         ImGui::Begin(("##note" + std::to_string(shown)).c_str(), nullptr,
-                     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
-                         ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoInputs);
+                     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
+                         ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
+                         ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoInputs);
         const auto corner = ImGui::GetWindowPos();
-        ImGui::GetWindowDrawList()->AddRectFilled(corner, {corner.x + 3 * scale, corner.y + ImGui::GetWindowHeight()},
-                                                  ImGui::GetColorU32(message->severity == Severity::note
-                                                                         ? colours::accent
-                                                                         : colour(message->severity)));
+        ImGui::GetWindowDrawList()->AddRectFilled(
+            corner, {corner.x + 3 * scale, corner.y + ImGui::GetWindowHeight()},
+            ImGui::GetColorU32(message->severity == Severity::note ? colours::accent : colour(message->severity)));
         ImGui::PushTextWrapPos(440 * scale);
         ImGui::TextUnformatted(message->text.c_str());
         ImGui::PopTextWrapPos();

@@ -22,8 +22,8 @@ struct Messages {
 
 double display_seconds(Severity severity); // how long a note stays over the viewport
 
-
-// Draws the notes that are still young at the bottom right of the area given. Returns in how many seconds it will look different.
+// Draws the notes that are still young at the bottom right of the area given. Returns in how many seconds it will look
+// different.
 std::optional<double> draw_notes(const Messages& messages, double now, float right, float bottom, float scale);
 void draw_log(const Messages& messages, bool& open, float scale);
 

@@ -48,7 +48,8 @@ glm::dvec3 turned(const Camera& camera, const glm::dvec3& direction, glm::dvec2 
     const auto right = glm::length(level) > 1e-9 ? glm::normalize(level) : any_across(direction);
     const double elevation = std::asin(std::clamp(glm::dot(direction, axis), -1.0, 1.0));
     const double limit = 89 * std::numbers::pi / 180;
-    const double pitch = std::clamp(elevation - radians.y, std::min(-limit, elevation), std::max(limit, elevation)) - elevation;
+    const double pitch =
+        std::clamp(elevation - radians.y, std::min(-limit, elevation), std::max(limit, elevation)) - elevation;
     return glm::normalize(rotated(rotated(direction, right, pitch), axis, -radians.x * sense));
 }
 

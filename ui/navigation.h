@@ -1,5 +1,5 @@
-// Moving a camera by hand: pure functions of a camera and a movement of the pointer. A mirrored camera (+x drawn to the left) moves the
-// way the picture moves under the hand.
+// Moving a camera by hand: pure functions of a camera and a movement of the pointer. A mirrored camera (+x drawn to the
+// left) moves the way the picture moves under the hand.
 #pragma once
 
 #include <span>
@@ -21,11 +21,12 @@ Bounds bounds_of(const Geometry& geometry);
 Bounds bounds_of(const Geometry& geometry, ObjectIndex object);
 
 // Movements are in shares of the viewport's height, x to the right, y down.
-Camera orbited(const Camera& camera, glm::dvec2 movement);             // about the target; never over the poles
-Camera panned(const Camera& camera, glm::dvec2 movement);              // what lies at the target's depth follows the pointer
-Camera dollied(const Camera& camera, double steps, double scene_size); // > 0: nearer; pushes the target on when it is reached
-Camera looked_around(const Camera& camera, glm::dvec2 movement);       // about the eye
-Camera flown(const Camera& camera, glm::dvec3 right_up_forward);       // in metres
+Camera orbited(const Camera& camera, glm::dvec2 movement); // about the target; never over the poles
+Camera panned(const Camera& camera, glm::dvec2 movement);  // what lies at the target's depth follows the pointer
+Camera dollied(const Camera& camera, double steps,
+               double scene_size);                               // > 0: nearer; pushes the target on when it is reached
+Camera looked_around(const Camera& camera, glm::dvec2 movement); // about the eye
+Camera flown(const Camera& camera, glm::dvec3 right_up_forward); // in metres
 Camera framed(const Camera& camera, const Bounds& bounds, double aspect);
 
 // Near and far planes that hold everything in front of the camera.

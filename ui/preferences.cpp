@@ -48,7 +48,8 @@ Preferences load_preferences(const std::filesystem::path& file) {
     read(json, "probe_at_cursor", layout.probe_at_cursor);
     if (json.contains("recent") && json["recent"].is_array())
         for (const auto& entry : json["recent"])
-            if (entry.is_string() && preferences.recent.size() < 10) preferences.recent.emplace_back(entry.get<std::string>());
+            if (entry.is_string() && preferences.recent.size() < 10)
+                preferences.recent.emplace_back(entry.get<std::string>());
     return preferences;
 }
 

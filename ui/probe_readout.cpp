@@ -36,14 +36,16 @@ void probe_readout(const Document& document, UiState& state) {
     ImGui::PushFont(state.fonts.small);
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, 2 * state.scale});
     auto what = scene.objects[at(probe.object)].name;
-    if (probe.luminaire && at(*probe.luminaire) < scene.luminaires.size()) what += "  (" + scene.luminaires[at(*probe.luminaire)].name + ")";
+    if (probe.luminaire && at(*probe.luminaire) < scene.luminaires.size())
+        what += "  (" + scene.luminaires[at(*probe.luminaire)].name + ")";
     row(state, "Object", what);
     row(state, "Material", scene.materials[at(probe.material)].name);
     row(state, "RGB cd/m²", three(probe.rgb));
     row(state, "XYZ cd/m²", three(probe.radiance));
     const auto xy = chromaticity(probe.radiance);
     row(state, "x  y", fmt::format("{:.4f}   {:.4f}", xy.x, xy.y));
-    row(state, "Position m", fmt::format("{:.3f}   {:.3f}   {:.3f}", probe.position.x, probe.position.y, probe.position.z));
+    row(state, "Position m",
+        fmt::format("{:.3f}   {:.3f}   {:.3f}", probe.position.x, probe.position.y, probe.position.z));
     row(state, "Unshot", short_number(static_cast<double>(probe.unshot)) + " lm/m²");
     ImGui::PopStyleVar();
     ImGui::PopFont();

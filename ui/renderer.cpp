@@ -40,9 +40,13 @@ void fill(GLenum target, GLuint buffer, const Vector& values, GLenum usage) {
     glBufferData(target, static_cast<GLsizeiptr>(values.size() * sizeof(values[0])), values.data(), usage);
 }
 
-GLint place(GLuint program, const char* name) { return glGetUniformLocation(program, name); }
+GLint place(GLuint program, const char* name) {
+    return glGetUniformLocation(program, name);
+}
 
-glm::mat3 srgb_matrix() { return rgb_from_xyz(srgb); }
+glm::mat3 srgb_matrix() {
+    return rgb_from_xyz(srgb);
+}
 
 // What the mesh pass shows; all else is the display pass's business.
 bool same_mesh_pass(const RenderParams& a, const RenderParams& b) {
@@ -81,12 +85,15 @@ std::expected<std::unique_ptr<Renderer>, std::string> Renderer::make() {
     };
     std::string complaint;
     for (unsigned variant = 0; variant <= (of_unshot | with_highlight); ++variant) {
-        if ((variant & of_unshot) && (variant & (with_texture | with_lines))) continue; // neither is shown with unshot light
+        if ((variant & of_unshot) && (variant & (with_texture | with_lines)))
+            continue; // neither is shown with unshot light
         complaint += build(renderer->mesh_programs_[variant], defines_of(variant), mesh_vertex_shader,
                            variant & with_lines ? mesh_geometry_shader : "", mesh_fragment_shader);
     }
-    complaint += build(renderer->display_one_, "#define SAMPLES 1\n", screen_vertex_shader, "", display_fragment_shader);
-    complaint += build(renderer->display_many_, "#define SAMPLES 4\n", screen_vertex_shader, "", display_fragment_shader);
+    complaint +=
+        build(renderer->display_one_, "#define SAMPLES 1\n", screen_vertex_shader, "", display_fragment_shader);
+    complaint +=
+        build(renderer->display_many_, "#define SAMPLES 4\n", screen_vertex_shader, "", display_fragment_shader);
     if (!complaint.empty()) return std::unexpected("a shader does not compile: " + complaint);
 
     auto& r = *renderer;
@@ -295,7 +302,8 @@ Renderer::Picture Renderer::draw(const RenderParams& params) {
         if (largest_seen_ < 0) largest_seen_ = largest_component_seen();
         max_display = std::max(asked, largest_seen_);
     }
-    if (!display_drawn_ || !(display_drawn_->display == params.display) || display_drawn_->unshot_top != params.unshot_top) {
+    if (!display_drawn_ || !(display_drawn_->display == params.display) ||
+        display_drawn_->unshot_top != params.unshot_top) {
         draw_display(params, max_display);
         display_drawn_ = params;
         drew = true;
@@ -314,7 +322,8 @@ Renderer::Picture Renderer::draw(const RenderParams& params) {
 
 bool Renderer::many_samples_are_cheap() const {
     constexpr double budget = 0.012; // s of a frame
-    return resolution_ == 0 && seconds_of_many_ > 0 && std::min(seconds_of_many_, 4 * std::max(seconds_of_one_, 1e-4)) < budget;
+    return resolution_ == 0 && seconds_of_many_ > 0 &&
+           std::min(seconds_of_many_, 4 * std::max(seconds_of_one_, 1e-4)) < budget;
 }
 
 // Moving pictures keep to their share of a frame of 40 ms, at the price of sharpness; a still one is drawn in full.
@@ -354,13 +363,15 @@ void Renderer::draw_mesh(const RenderParams& params, double max_display) {
     const auto use = [&](GLuint program) { // what is the same for all batches
         glUseProgram(program);
         glUniformMatrix4fv(place(program, "clip_from_world"), 1, GL_FALSE, glm::value_ptr(clip));
-        glUniform1ui(place(program, "selected_object"), params.selected ? static_cast<GLuint>(*params.selected) : no_index);
+        glUniform1ui(place(program, "selected_object"),
+                     params.selected ? static_cast<GLuint>(*params.selected) : no_index);
         glUniformMatrix3fv(place(program, "rgb_from_xyz"), 1, GL_FALSE, glm::value_ptr(srgb_matrix()));
         glUniform1f(place(program, "scale"), static_cast<float>(1 / max_display));
         glUniform1ui(place(program, "highlighted"), shooting_);
         const glm::vec3 accent = decoded({colours::accent.x, colours::accent.y, colours::accent.z});
         glUniform3fv(place(program, "highlight_rgb"), 1, glm::value_ptr(accent));
-        glUniform2f(place(program, "viewport_size"), static_cast<float>(target_->width), static_cast<float>(target_->height));
+        glUniform2f(place(program, "viewport_size"), static_cast<float>(target_->width),
+                    static_cast<float>(target_->height));
         glUniform1f(place(program, "line_width"), params.line_width);
         glUniform1i(place(program, "texels"), 0);
         glUniform1i(place(program, "patches"), 1);
@@ -405,9 +416,15 @@ void Renderer::draw_display(const RenderParams& params, double max_display) {
     int clip_rule = 0;
     switch (params.display.clip) {
     case ClipRule::clamp:
-    case ClipRule::scale_all: clip_rule = 0; break;
-    case ClipRule::keep_chromaticity: clip_rule = 1; break;
-    case ClipRule::desaturate: clip_rule = 2; break;
+    case ClipRule::scale_all:
+        clip_rule = 0;
+        break;
+    case ClipRule::keep_chromaticity:
+        clip_rule = 1;
+        break;
+    case ClipRule::desaturate:
+        clip_rule = 2;
+        break;
     }
     glUniform1i(place(program, "clip_rule"), clip_rule);
     glUniform1i(place(program, "srgb_curve"), params.display.curve == TransferCurve::srgb);
@@ -439,8 +456,8 @@ double Renderer::largest_component_seen() {
         glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, target_->width, target_->height, 0, GL_RGBA, GL_FLOAT, nullptr);
         glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved);
         glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
-        glBlitFramebuffer(0, 0, target_->width, target_->height, 0, 0, target_->width, target_->height, GL_COLOR_BUFFER_BIT,
-                          GL_NEAREST);
+        glBlitFramebuffer(0, 0, target_->width, target_->height, 0, 0, target_->width, target_->height,
+                          GL_COLOR_BUFFER_BIT, GL_NEAREST);
         glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved);
     }
     std::vector<glm::vec4> pixels(static_cast<std::size_t>(target_->width) * static_cast<std::size_t>(target_->height));

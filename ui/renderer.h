@@ -1,5 +1,6 @@
-// Draws a snapshot with OpenGL 3.3 into a texture, in two passes: the mesh as linear radiance, then the display function over all pixels.
-// A pass runs only when something it shows has changed, so a still picture costs nothing and a turn of gamma one pass over the pixels.
+// Draws a snapshot with OpenGL 3.3 into a texture, in two passes: the mesh as linear radiance, then the display
+// function over all pixels. A pass runs only when something it shows has changed, so a still picture costs nothing and
+// a turn of gamma one pass over the pixels.
 //
 // Thread: the one that owns the current OpenGL context.
 #pragma once
@@ -38,8 +39,8 @@ public:
 
     // Uploads what is new in the snapshot. An empty mesh pointer draws the backdrop.
     void set_snapshot(const Snapshot& snapshot);
-    // Draws what is stale. The picture is then in the framebuffer returned, its first row the lowest; it may have fewer pixels than
-    // were asked for while things move, and is to be stretched.
+    // Draws what is stale. The picture is then in the framebuffer returned, its first row the lowest; it may have fewer
+    // pixels than were asked for while things move, and is to be stretched.
     struct Picture {
         GLuint framebuffer = 0, texture = 0;
         int width = 0, height = 0;

@@ -14,7 +14,8 @@
 namespace lueur {
 namespace {
 
-std::expected<std::filesystem::path, std::string> save(const ScreenshotParams& params, const std::atomic<bool>& cancel) {
+std::expected<std::filesystem::path, std::string> save(const ScreenshotParams& params,
+                                                       const std::atomic<bool>& cancel) {
     const auto& snapshot = *params.snapshot;
     if (!snapshot.scene || !snapshot.mesh || !snapshot.world || !snapshot.field)
         return std::unexpected("There is no picture to save yet.");
@@ -25,8 +26,10 @@ std::expected<std::filesystem::path, std::string> save(const ScreenshotParams& p
     const auto image = render_picture(view, params.camera, size, PictureQuantity::colour, cancel);
     if (cancel) return std::unexpected("The picture was not saved: cancelled.");
     auto display = params.display;
-    if (display.clip == ClipRule::scale_all) display.max_display = std::max(display.max_display, largest_component(image));
-    auto metadata = picture_metadata(*snapshot.scene, params.scene_file, params.camera, snapshot.status, PictureQuantity::colour);
+    if (display.clip == ClipRule::scale_all)
+        display.max_display = std::max(display.max_display, largest_component(image));
+    auto metadata =
+        picture_metadata(*snapshot.scene, params.scene_file, params.camera, snapshot.status, PictureQuantity::colour);
     add_display_metadata(metadata, display);
     if (auto written = write_display_image(params.output, display_image(image, display), metadata); !written)
         return std::unexpected(written.error());
@@ -38,20 +41,24 @@ std::expected<std::filesystem::path, std::string> save(const ScreenshotParams& p
 std::filesystem::path new_screenshot_file() {
     std::error_code error;
     std::filesystem::path folder;
-    if (const char* pictures = std::getenv("XDG_PICTURES_DIR"); pictures && std::filesystem::is_directory(pictures, error))
+    if (const char* pictures = std::getenv("XDG_PICTURES_DIR");
+        pictures && std::filesystem::is_directory(pictures, error))
         folder = pictures;
     else
         folder = std::filesystem::current_path(error);
     const auto stem = fmt::format("lueur-{:%Y%m%d-%H%M%S}", fmt::localtime(std::time(nullptr)));
     auto file = folder / (stem + ".png");
-    for (int number = 2; std::filesystem::exists(file, error); ++number) file = folder / fmt::format("{}-{}.png", stem, number);
+    for (int number = 2; std::filesystem::exists(file, error); ++number)
+        file = folder / fmt::format("{}-{}.png", stem, number);
     return file;
 }
 
 Screenshots::Screenshots(std::function<void()> wake)
     : wake_(std::move(wake)) {}
 
-Screenshots::~Screenshots() { cancel_ = true; }
+Screenshots::~Screenshots() {
+    cancel_ = true;
+}
 
 void Screenshots::start(ScreenshotParams params) {
     {

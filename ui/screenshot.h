@@ -31,7 +31,7 @@ std::filesystem::path new_screenshot_file();
 class Screenshots {
 public:
     explicit Screenshots(std::function<void()> wake); // called from the thread when a picture is done
-    ~Screenshots();                                    // cancels
+    ~Screenshots();                                   // cancels
 
     void start(ScreenshotParams params);
     // What has been finished since the last call: a path or why not.

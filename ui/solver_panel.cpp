@@ -35,7 +35,8 @@ void status_figures(const SolveStatus& status, const UiState& state) {
         figure(state, "Sweeps", count(status.sweeps), "Over all rows");
         figure(state, "Shots", count(status.shots), "Patches that have shot their light");
         figure(state, "Emitted", short_number(status.emitted_lumens) + " lm", "By all luminaires");
-        figure(state, "Last edit", status.last_edit_seconds > 0 ? fmt::format("{:.0f} ms", 1000 * status.last_edit_seconds) : "-",
+        figure(state, "Last edit",
+               status.last_edit_seconds > 0 ? fmt::format("{:.0f} ms", 1000 * status.last_edit_seconds) : "-",
                "Solve time from the last edit to the first settled picture");
         ImGui::EndTable();
     }
@@ -55,7 +56,8 @@ std::optional<Edit> solver_panel(const Document& document, const Snapshot& snaps
     int solver = static_cast<int>(solve.solver);
     if (segmented(state, "solver",
                   {{"Gathering", "Direct light apart, rays gathered once and kept, sweeps over the kept rows"},
-                   {"Shooting", "Progressive refinement: the patch with most unshot light shoots it, and an ambient term stands for the rest"}},
+                   {"Shooting", "Progressive refinement: the patch with most unshot light shoots it, and an ambient "
+                                "term stands for the rest"}},
                   solver)) {
         solve.solver = static_cast<SolverKind>(solver);
         any = true;
@@ -77,7 +79,8 @@ std::optional<Edit> solver_panel(const Document& document, const Snapshot& snaps
     tooltip(state, "From black again; the rays are kept");
     ImGui::PopStyleVar();
 
-    row_label(state, "Wavelengths", "Channels that the light is computed in. RGB is fast and wrong for lamps with lines.");
+    row_label(state, "Wavelengths",
+              "Channels that the light is computed in. RGB is fast and wrong for lamps with lines.");
     const bool rgb = solve.wavelengths.rule == WavelengthRule::rgb;
     const auto text = rgb ? std::string("RGB") : fmt::format("{} from 400 to 700 nm", solve.wavelengths.count);
     if (ImGui::BeginCombo("##wavelengths", text.c_str())) {
@@ -118,8 +121,8 @@ std::optional<Edit> solver_panel(const Document& document, const Snapshot& snaps
     row_label(state, "Element size", "Largest edge of a coarse element in metres; 0: chosen from the scene's area.");
     double size = solve.element_size;
     const double low = 0, high = 1000;
-    if (ImGui::DragScalar("##element", ImGuiDataType_Double, &size, static_cast<float>(std::max(0.005, size * 0.01)), &low, &high,
-                          size > 0 ? "%.3f m" : "automatic") &&
+    if (ImGui::DragScalar("##element", ImGuiDataType_Double, &size, static_cast<float>(std::max(0.005, size * 0.01)),
+                          &low, &high, size > 0 ? "%.3f m" : "automatic") &&
         size >= 0)
         solve.element_size = size;
     released();

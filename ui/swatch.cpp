@@ -39,33 +39,38 @@ Rgb linear_rgb(const Reflectance& reflectance) {
 
 double luminous_reflectance(const Reflectance& reflectance) {
     static const glm::dmat3 to_xyz = xyz_from_rgb(srgb);
-    return std::visit(Overloaded{[](double value) { return value; },
-                                 [](const Rgb& rgb) { return (to_xyz * rgb).y; },
+    return std::visit(Overloaded{[](double value) { return value; }, [](const Rgb& rgb) { return (to_xyz * rgb).y; },
                                  [](const SpectrumFile& file) { return xyz_under_d65(file.spectrum).y; }},
                       reflectance);
 }
 
 Rgb linear_rgb(const EmissionSpectrum& spectrum) {
     const auto of_xyz = [](const Xyz& xyz) { return srgb_from_xyz(xyz); };
-    Rgb rgb = std::visit(Overloaded{[&](const Flat&) { return of_xyz(xyz_from_spectrum(curve_of(Flat{}))); },
-                                    [](const Rgb& colour) { return colour; },
-                                    [&](const SpectrumFile& file) { return of_xyz(xyz_from_spectrum(file.spectrum)); },
-                                    [&](const Blackbody& body) { return of_xyz(xyz_from_spectrum(blackbody(body.kelvin))); }},
-                         spectrum);
+    Rgb rgb =
+        std::visit(Overloaded{[&](const Flat&) { return of_xyz(xyz_from_spectrum(curve_of(Flat{}))); },
+                              [](const Rgb& colour) { return colour; },
+                              [&](const SpectrumFile& file) { return of_xyz(xyz_from_spectrum(file.spectrum)); },
+                              [&](const Blackbody& body) { return of_xyz(xyz_from_spectrum(blackbody(body.kelvin))); }},
+                   spectrum);
     rgb = glm::max(rgb, 0.0);
     const double largest = std::max({rgb.r, rgb.g, rgb.b});
     return largest > 0 ? rgb / largest : Rgb(0);
 }
 
 Spectrum curve_of(const Reflectance& reflectance) {
-    return std::visit(Overloaded{[](double value) { return Spectrum{{380, 780}, {value, value}}; },
+    return std::visit(Overloaded{[](double value) {
+                                     return Spectrum{{380, 780}, {value, value}};
+                                 },
                                  [](const Rgb& rgb) { return reflectance_from_rgb(glm::clamp(rgb, 0.0, 1.0)); },
                                  [](const SpectrumFile& file) { return file.spectrum; }},
                       reflectance);
 }
 
 Spectrum curve_of(const EmissionSpectrum& spectrum) {
-    return std::visit(Overloaded{[](const Flat&) { return Spectrum{{380, 780}, {1, 1}}; }, [](const Rgb&) { return Spectrum{}; },
+    return std::visit(Overloaded{[](const Flat&) {
+                                     return Spectrum{{380, 780}, {1, 1}};
+                                 },
+                                 [](const Rgb&) { return Spectrum{}; },
                                  [](const SpectrumFile& file) { return file.spectrum; },
                                  [](const Blackbody& body) { return blackbody(body.kelvin); }},
                       spectrum);

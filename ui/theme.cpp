@@ -7,9 +7,9 @@ namespace lueur {
 namespace {
 
 // Latin, Greek and Cyrillic letters for names in files; superscripts, arrows and relations for units and figures.
-constexpr std::array<ImWchar, 21> glyph_ranges{0x0020, 0x017f, 0x0370, 0x03ff, 0x0400, 0x045f, 0x2000, 0x2027, 0x2070,
-                                               0x209c, 0x2190, 0x2193, 0x2212, 0x2212, 0x2248, 0x2248, 0x2260, 0x2265,
-                                               0x25b2, 0x25bc, 0};
+constexpr std::array<ImWchar, 21> glyph_ranges{0x0020, 0x017f, 0x0370, 0x03ff, 0x0400, 0x045f, 0x2000,
+                                               0x2027, 0x2070, 0x209c, 0x2190, 0x2193, 0x2212, 0x2212,
+                                               0x2248, 0x2248, 0x2260, 0x2265, 0x25b2, 0x25bc, 0};
 
 ImFont* load(const char* name, float pixels) {
     static constexpr std::array folders{"/usr/share/fonts/opentype/inter/", "/usr/share/fonts/truetype/inter/",

@@ -1,4 +1,5 @@
-// How the window looks: neutral greys, so that colours in the picture are judged against nothing coloured, and one warm accent.
+// How the window looks: neutral greys, so that colours in the picture are judged against nothing coloured, and one warm
+// accent.
 #pragma once
 
 #include <string>

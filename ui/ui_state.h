@@ -1,5 +1,6 @@
-// What the window remembers between frames that is not part of the document: selection, layout, drafts, what was asked for.
-// One thread (the window's) owns it. Panels read and change it freely; what changes the scene goes through an Edit.
+// What the window remembers between frames that is not part of the document: selection, layout, drafts, what was asked
+// for. One thread (the window's) owns it. Panels read and change it freely; what changes the scene goes through an
+// Edit.
 #pragma once
 
 #include <filesystem>
@@ -52,12 +53,12 @@ struct UiState {
 
     std::string material_filter, luminaire_filter;
     std::string spectrum_column;
-    std::map<std::size_t, double> muted;       // luminaire -> dimmer before it was muted
-    float master = 1;                       // of the drag of the master dimmer that is going on
-    std::optional<Scene> preview;           // shown to the solver while the master dimmer is dragged; becomes an edit at its end
+    std::map<std::size_t, double> muted; // luminaire -> dimmer before it was muted
+    float master = 1;                    // of the drag of the master dimmer that is going on
+    std::optional<Scene> preview; // shown to the solver while the master dimmer is dragged; becomes an edit at its end
     std::optional<SolveSettings> solve_draft; // while a slider that costs rays is being dragged
 
-    Exposure exposure; // MAXDISPLAY in use
+    Exposure exposure;    // MAXDISPLAY in use
     float unshot_top = 0; // top of the false-colour scale, lm m^-2
 
     bool paused = false;

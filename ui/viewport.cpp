@@ -17,13 +17,15 @@
 namespace lueur {
 namespace {
 
-constexpr double still_after = 0.15;   // s without a movement or new light before the picture is refined
+constexpr double still_after = 0.15; // s without a movement or new light before the picture is refined
 
 bool same_scene(const Document& document, const Snapshot& snapshot) {
     return snapshot.scene && snapshot.scene->geometry == document.scene().geometry;
 }
 
-bool key(int code) { return ImGui::IsKeyDown(code); }
+bool key(int code) {
+    return ImGui::IsKeyDown(code);
+}
 
 // Keys held: metres to the right, up and ahead in this frame.
 glm::dvec3 flight(double speed, double dt) {
@@ -44,24 +46,27 @@ void unshot_legend(const UiState& state, const ViewportState& view) {
     draw->AddText(state.fonts.small, size, {x, y - 19 * scale}, packed(colours::text), "Unshot light, lm/m²");
     for (int i = 0; i < 100; ++i) {
         const auto c = false_colour((static_cast<float>(i) + 0.5f) / 100);
-        draw->AddRectFilled({x + width * static_cast<float>(i) / 100, y}, {x + width * static_cast<float>(i + 1) / 100, y + height},
-                            packed({c.r, c.g, c.b, 1}));
+        draw->AddRectFilled({x + width * static_cast<float>(i) / 100, y},
+                            {x + width * static_cast<float>(i + 1) / 100, y + height}, packed({c.r, c.g, c.b, 1}));
     }
     const int top = static_cast<int>(std::lround(std::log10(std::max(state.unshot_top, 1e-6f))));
     for (int i = 0; i <= static_cast<int>(false_colour_decades); ++i) {
-        const auto text = short_number(std::pow(10.0, top - static_cast<int>(false_colour_decades) + i));
+        const auto text = fmt::format("{:g}", std::pow(10.0, top - static_cast<int>(false_colour_decades) + i));
         const float at_x = x + width * static_cast<float>(i) / false_colour_decades;
         const float half = 0.5f * state.fonts.small->CalcTextSizeA(size, 1e6f, 0, text.c_str()).x;
-        draw->AddText(state.fonts.small, size, {i == 0 ? x : at_x - half, y + height + 3 * scale}, packed(colours::dim), text.c_str());
+        draw->AddText(state.fonts.small, size, {i == 0 ? x : at_x - half, y + height + 3 * scale}, packed(colours::dim),
+                      text.c_str());
     }
 }
 
 void busy_note(const UiState& state, const ViewportState& view, const Snapshot& snapshot) {
-    const std::string text = snapshot.status.stage == SolveStage::failed ? snapshot.status.message : "Preparing the scene...";
+    const std::string text =
+        snapshot.status.stage == SolveStage::failed ? snapshot.status.message : "Preparing the scene...";
     const auto size = ImGui::CalcTextSize(text.c_str());
-    ImGui::GetWindowDrawList()->AddText({static_cast<float>(view.x) + 0.5f * (static_cast<float>(view.width) - size.x),
-                                         static_cast<float>(view.y) + 0.5f * (static_cast<float>(view.height) - size.y)},
-                                        packed(colours::dim), text.c_str());
+    ImGui::GetWindowDrawList()->AddText(
+        {static_cast<float>(view.x) + 0.5f * (static_cast<float>(view.width) - size.x),
+         static_cast<float>(view.y) + 0.5f * (static_cast<float>(view.height) - size.y)},
+        packed(colours::dim), text.c_str());
     (void)state;
 }
 
@@ -110,9 +115,12 @@ void update_unshot_top(const Snapshot& snapshot, ViewportState& view, UiState& s
 
 } // namespace
 
-double aspect_of(const ViewportState& view) { return static_cast<double>(std::max(view.width, 1)) / std::max(view.height, 1); }
+double aspect_of(const ViewportState& view) {
+    return static_cast<double>(std::max(view.width, 1)) / std::max(view.height, 1);
+}
 
-std::optional<Probe> probe_at(const Snapshot& snapshot, const Camera& camera, const ViewportState& view, float x, float y) {
+std::optional<Probe> probe_at(const Snapshot& snapshot, const Camera& camera, const ViewportState& view, float x,
+                              float y) {
     const double u = (static_cast<double>(x) + 0.5 - view.x) / std::max(view.width, 1);
     const double v = (static_cast<double>(y) + 0.5 - view.y) / std::max(view.height, 1);
     if (u < 0 || v < 0 || u > 1 || v > 1) return {};
@@ -120,7 +128,8 @@ std::optional<Probe> probe_at(const Snapshot& snapshot, const Camera& camera, co
     return probe(snapshot, ray.origin, ray.direction);
 }
 
-std::optional<Edit> camera_command(Command command, const Document& document, const UiState& state, const ViewportState& view) {
+std::optional<Edit> camera_command(Command command, const Document& document, const UiState& state,
+                                   const ViewportState& view) {
     const auto& scene = document.scene();
     if (command == Command::home && view.home) return SetCamera{*view.home};
     if (command == Command::frame_selection) {
@@ -145,12 +154,14 @@ std::optional<Edit> viewport(const Document& document, const Snapshot& snapshot,
     renderer.set_snapshot(known ? snapshot : Snapshot{});
     ImGui::SetCursorScreenPos({static_cast<float>(view.x), static_cast<float>(view.y)});
     ImGui::InvisibleButton("##viewport", {static_cast<float>(view.width), static_cast<float>(view.height)},
-                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
+                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
+                               ImGuiButtonFlags_MouseButtonMiddle);
     view.hovered = ImGui::IsItemHovered();
     const bool was_dragging = view.dragging;
     view.dragging = ImGui::IsItemActive();
     if (view.dragging && !was_dragging) view.moved = false;
-    const bool clicked = was_dragging && !view.dragging && !view.moved && view.hovered && ImGui::IsMouseReleased(ImGuiMouseButton_Left);
+    const bool clicked =
+        was_dragging && !view.dragging && !view.moved && view.hovered && ImGui::IsMouseReleased(ImGuiMouseButton_Left);
 
     const auto& scene = document.scene();
     std::optional<Edit> edit;

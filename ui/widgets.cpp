@@ -19,7 +19,9 @@ ImU32 packed(const ImVec4& colour, float alpha) {
 
 void tooltip(const UiState& state, const char* text) {
     if (!text || !*text) return;
-    if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) || ImGui::GetCurrentContext()->HoveredIdTimer < 0.45f) return;
+    if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) ||
+        ImGui::GetCurrentContext()->HoveredIdTimer < 0.45f)
+        return;
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(320 * state.scale);
     ImGui::TextUnformatted(text);
@@ -116,7 +118,8 @@ void spectrum_plot(const UiState& state, const char* id, const Spectrum& spectru
         draw->AddLine({x_of(nm), low.y}, {x_of(nm), high.y}, packed(colours::line, 0.7f));
         const auto text = fmt::format("{:.0f}{}", nm, nm == 700 ? " nm" : "");
         draw->AddText(state.fonts.small, state.fonts.small->FontSize,
-                      {x_of(nm) - 10 * state.scale, high.y + strip + 1 * state.scale}, packed(colours::dim), text.c_str());
+                      {x_of(nm) - 10 * state.scale, high.y + strip + 1 * state.scale}, packed(colours::dim),
+                      text.c_str());
     }
     const auto outside = top == 1 ? Outside::constant : Outside::zero; // a reflectance is drawn to 1
     if (!spectrum.nm.empty()) {
@@ -135,8 +138,8 @@ void spectrum_plot(const UiState& state, const char* id, const Spectrum& spectru
         }
     } else {
         const char* text = "no curve: a mixture of the display's primaries";
-        draw->AddText(state.fonts.small, state.fonts.small->FontSize, {low.x + 8 * state.scale, low.y + 22 * state.scale},
-                      packed(colours::dim), text);
+        draw->AddText(state.fonts.small, state.fonts.small->FontSize,
+                      {low.x + 8 * state.scale, low.y + 22 * state.scale}, packed(colours::dim), text);
     }
     for (float x = low.x; x < high.x; x += 2) {
         const double nm = first + (last - first) * (x - low.x) / width;
@@ -156,7 +159,8 @@ bool file_row(UiState& state, const SpectrumFile& file) {
     ImGui::PushStyleVar(ImGuiStyleVar_ButtonTextAlign, {0, 0.5f});
     const bool pressed = ImGui::Button((file.path + "##file").c_str(), {-1, 0});
     ImGui::PopStyleVar();
-    const auto whole = file.path + (file.column.empty() ? "" : ", column " + file.column) + "\nPress to choose another file.";
+    const auto whole =
+        file.path + (file.column.empty() ? "" : ", column " + file.column) + "\nPress to choose another file.";
     tooltip(state, whole.c_str());
     state.layout_log.widget("spectrum_file");
     row_label(state, "Column", "Name of the column to read from the next file you choose; empty: the first.");

@@ -13,7 +13,8 @@
 
 namespace lueur {
 
-// A dim label at the left of the row, the next item takes the rest of it. `tip` is shown when the label or the item is hovered.
+// A dim label at the left of the row, the next item takes the rest of it. `tip` is shown when the label or the item is
+// hovered.
 void row_label(const UiState& state, const char* label, const char* tip = nullptr);
 void tooltip(const UiState& state, const char* text); // for the last item
 void section(const UiState& state, const char* title);
@@ -30,7 +31,8 @@ bool log_slider(const char* id, double& value, double low, double high, const ch
 
 void swatch(const UiState& state, const char* id, const glm::vec3& encoded_colour, float size = 0);
 
-// A curve over 380..780 nm above a strip of the colours of the spectrum. `top`: value at the upper edge; 0: the curve's own largest.
+// A curve over 380..780 nm above a strip of the colours of the spectrum. `top`: value at the upper edge; 0: the curve's
+// own largest.
 void spectrum_plot(const UiState& state, const char* id, const Spectrum& spectrum, double top);
 
 // Where a spectrum came from, as a button that asks for another, and the column to read from that. True when pressed.

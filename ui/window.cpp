@@ -28,7 +28,9 @@ double environment_scale() {
 
 } // namespace
 
-Window& Window::of(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUserPointer(window)); }
+Window& Window::of(GLFWwindow* window) {
+    return *static_cast<Window*>(glfwGetWindowUserPointer(window));
+}
 
 std::expected<std::unique_ptr<Window>, std::string> Window::open(const WindowParams& params) {
     if (!glfwInit()) return std::unexpected("no display to open a window on (" + last_glfw_error() + ")");
@@ -112,7 +114,8 @@ void Window::make_fonts() {
     glfwGetFramebufferSize(window_, &physical, nullptr);
     // Where screen coordinates are already scaled (Wayland, macOS) ImGui scales by itself.
     const float given = logical > 0 && physical > 0 ? static_cast<float>(physical) / static_cast<float>(logical) : 1.0f;
-    scale_ = std::clamp(static_cast<float>(user_scale_ * environment_scale()) * std::max(x, 0.5f) / std::max(given, 0.5f), 0.5f, 6.0f);
+    scale_ = std::clamp(
+        static_cast<float>(user_scale_ * environment_scale()) * std::max(x, 0.5f) / std::max(given, 0.5f), 0.5f, 6.0f);
     apply_theme(scale_);
     fonts_ = load_fonts(scale_, font_complaint_);
     ImGui_ImplOpenGL3_DestroyFontsTexture();
@@ -128,9 +131,13 @@ void Window::wait(double seconds) {
         glfwWaitEventsTimeout(seconds);
 }
 
-void Window::wake() { glfwPostEmptyEvent(); }
+void Window::wake() {
+    glfwPostEmptyEvent();
+}
 
-WindowEvents Window::take_events() { return std::exchange(events_, {}); }
+WindowEvents Window::take_events() {
+    return std::exchange(events_, {});
+}
 
 void Window::set_scale(double scale) {
     user_scale_ = scale;
@@ -159,13 +166,14 @@ void Window::end_frame(const Underlay& under) {
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glViewport(0, 0, w, h);
     glDisable(GL_SCISSOR_TEST);
-    glClearColor(colours::panel.x, colours::panel.y, colours::panel.z, 1); // the panels' windows draw no ground of their own
+    glClearColor(colours::panel.x, colours::panel.y, colours::panel.z,
+                 1); // the panels' windows draw no ground of their own
     glClear(GL_COLOR_BUFFER_BIT);
     if (under.framebuffer) { // copied and not drawn by ImGui: a software renderer blends a million pixels for nothing
         glBindFramebuffer(GL_READ_FRAMEBUFFER, under.framebuffer);
         const bool same = under.from_width == under.width && under.from_height == under.height;
-        glBlitFramebuffer(0, 0, under.from_width, under.from_height, under.x, h - under.y - under.height, under.x + under.width,
-                          h - under.y, GL_COLOR_BUFFER_BIT, same ? GL_NEAREST : GL_LINEAR);
+        glBlitFramebuffer(0, 0, under.from_width, under.from_height, under.x, h - under.y - under.height,
+                          under.x + under.width, h - under.y, GL_COLOR_BUFFER_BIT, same ? GL_NEAREST : GL_LINEAR);
         glBindFramebuffer(GL_FRAMEBUFFER, 0);
     }
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
@@ -182,8 +190,14 @@ int Window::height() const {
     glfwGetWindowSize(window_, nullptr, &h);
     return h;
 }
-void Window::pointer(double& x, double& y) const { glfwGetCursorPos(window_, &x, &y); }
-bool Window::maximized() const { return glfwGetWindowAttrib(window_, GLFW_MAXIMIZED); }
-double Window::now() const { return glfwGetTime(); }
+void Window::pointer(double& x, double& y) const {
+    glfwGetCursorPos(window_, &x, &y);
+}
+bool Window::maximized() const {
+    return glfwGetWindowAttrib(window_, GLFW_MAXIMIZED);
+}
+double Window::now() const {
+    return glfwGetTime();
+}
 
 } // namespace lueur

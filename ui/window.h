@@ -1,4 +1,5 @@
-// The window of the operating system with its OpenGL context and Dear ImGui inside: the only code that sees GLFW's callbacks.
+// The window of the operating system with its OpenGL context and Dear ImGui inside: the only code that sees GLFW's
+// callbacks.
 #pragma once
 
 #include <expected>

@@ -255,17 +255,21 @@ void step_mesh(State& s) {
     s.world = std::make_shared<const World>(s.mesh);
     s.origins = ray_origins(s.mesh, s.world->epsilon());
     s.buried.assign(s.mesh.coarse_vertex_count, 0);
-    const DirectParams params{0.03f, static_cast<float>(size / 6), s.mesh.coarse_vertex_count + fine_vertices};
+    const DirectParams params{0.03f, static_cast<float>(size / 8), s.mesh.coarse_vertex_count + fine_vertices};
     s.direct = std::make_unique<DirectTransport>(*s.world, s.mesh, make_emitters(*s.scene), params);
     publish_mesh(s);
     s.cursor = 0;
-    s.phase = SolvePhase::light;
+    s.phase = SolvePhase::sketch;
+}
+
+void step_sketch(State& s, const std::atomic<bool>& cancel) {
+    s.status.stage = SolveStage::direct;
+    if (s.direct->sketch(cancel)) s.phase = SolvePhase::light;
 }
 
 void step_light(State& s, const std::atomic<bool>& cancel) {
     s.status.stage = SolveStage::direct;
     if (!s.direct->light_vertices(cancel)) return;
-    s.cursor = 0;
     s.phase = SolvePhase::burial;
 }
 
@@ -465,7 +469,8 @@ void Solution::update(std::shared_ptr<const Scene> scene, SolveFrom stale) {
         s.solving = false;
     }
     const bool shooting = s.scene->solve.solver == SolverKind::shooting;
-    const bool transport_ready = s.phase != SolvePhase::mesh && s.phase != SolvePhase::light && s.phase != SolvePhase::burial;
+    const bool transport_ready = s.phase != SolvePhase::mesh && s.phase != SolvePhase::sketch &&
+                                 s.phase != SolvePhase::light && s.phase != SolvePhase::burial;
     if (!transport_ready) return;
     if (std::exchange(s.pass_open, false)) s.passes.pop_back(); // half traced: again later
     if (shooting) {
@@ -492,6 +497,7 @@ bool Solution::step(const std::atomic<bool>& cancel, bool one_shot) {
     const std::uint64_t direct_before = s.direct ? s.direct->rays() : 0;
     switch (s.phase) {
     case SolvePhase::mesh: step_mesh(s); break;
+    case SolvePhase::sketch: step_sketch(s, cancel); break;
     case SolvePhase::light: step_light(s, cancel); break;
     case SolvePhase::burial: step_burial(s, cancel); break;
     case SolvePhase::gather: step_gather(s, cancel); break;
@@ -502,6 +508,11 @@ bool Solution::step(const std::atomic<bool>& cancel, bool one_shot) {
     case SolvePhase::failed: break;
     }
     s.status.rays += s.direct->rays() - direct_before;
+    if (s.status.stage == SolveStage::direct) s.status.progress = s.direct->progress();
+    if (s.phase == SolvePhase::gather && s.receivers.count() > 0 && s.passes_wanted > 0) {
+        const double traced = double(s.passes.size()) - (s.pass_open ? 1 - double(s.cursor) / s.receivers.count() : 0);
+        s.status.progress = std::clamp(traced / s.passes_wanted, 0.0, 1.0);
+    }
     s.status.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (s.edit_open && s.phase == SolvePhase::settled) {
         s.edit_open = false;

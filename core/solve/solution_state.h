@@ -13,7 +13,7 @@
 
 namespace lueur {
 
-enum class SolvePhase { mesh, light, burial, gather, sweep, refine, shoot, settled, failed };
+enum class SolvePhase { mesh, sketch, light, burial, gather, sweep, refine, shoot, settled, failed };
 
 struct Solution::State {
     std::shared_ptr<const Scene> scene;

@@ -43,6 +43,9 @@ EmitterPoint emitter_point(const Emitter& emitter, glm::vec2 u);
 // D for one receiver. `origin` is already off its surface.
 float direct_form_factor(const World& world, const Emitter& emitter, glm::vec3 origin, glm::vec3 normal, std::uint64_t& rays);
 
+// A first guess with one shadow ray, to a probe chosen by `choice`: unbiased far away, rough near the lamp. For a picture at once.
+float direct_form_factor_sketch(const World& world, const Emitter& emitter, glm::vec3 origin, glm::vec3 normal, std::uint32_t choice);
+
 // The same with `samples` shadow rays of their own random set, for measuring: unbiased visibility.
 float direct_form_factor_sampled(const World& world, const Emitter& emitter, glm::vec3 origin, glm::vec3 normal, int samples,
                                  glm::vec2 offset);

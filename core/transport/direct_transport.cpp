@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/transport/gather_rows.h"
+#include "core/transport/sampling.h"
 #include "core/transport/time_slice.h"
 
 namespace lueur {
@@ -30,8 +31,21 @@ float DirectTransport::equal_flux_light(const float* factors) const {
 }
 
 double DirectTransport::progress() const {
+    if (sketch_cursor_ < mesh_.vertices.size() && vertex_cursor_ == 0)
+        return double(sketch_cursor_) / double(mesh_.vertices.size());
     if (vertex_cursor_ < mesh_.vertices.size()) return double(vertex_cursor_) / double(mesh_.vertices.size());
     return refined_ || edges_.empty() ? 1 : double(edge_cursor_) / double(edges_.size());
+}
+
+bool DirectTransport::sketch(const std::atomic<bool>& cancel) {
+    const std::uint32_t count = static_cast<std::uint32_t>(mesh_.vertices.size());
+    return run_slice(sketch_cursor_, count, 128, cancel, [&](std::uint32_t first, std::uint32_t last) {
+        for (std::uint32_t v = first; v < last; ++v)
+            for (std::size_t l = 0; l < emitters_.size(); ++l)
+                factors_[std::size_t(v) * emitters_.size() + l] = direct_form_factor_sketch(
+                    world_, emitters_[l], origins_[v], mesh_.vertices[v].normal, hash(v, static_cast<std::uint32_t>(l)));
+        rays_.fetch_add(std::uint64_t(last - first) * emitters_.size(), std::memory_order_relaxed);
+    });
 }
 
 bool DirectTransport::light_vertices(const std::atomic<bool>& cancel) {
@@ -80,7 +94,7 @@ void DirectTransport::collect_edges() {
 }
 
 void DirectTransport::split_bent() {
-    std::vector<std::uint8_t> bent(edges_.size(), 0);
+    std::vector<float> bent(edges_.size(), 0); // the misfit where it is too large
     for (std::size_t e = 0; e < edges_.size(); ++e) {
         const EdgeMiddle& edge = edges_[e];
         const float here = equal_flux_light(edge_factors_.data() + e * emitters_.size());
@@ -88,22 +102,31 @@ void DirectTransport::split_bent() {
         const float scale = std::max({here, guess, floor_});
         const float misfit = scale > 0 ? std::abs(here - guess) / scale : 0;
         const bool inside = buried_[edge.a] && buried_[edge.b];
-        bent[e] = misfit > params_.tolerance && !inside;
-        if (!bent[e]) {
+        bent[e] = misfit > params_.tolerance && !inside ? misfit : 0;
+        if (bent[e] == 0) {
             straight_.emplace(Bisection::edge_key(edge.a, edge.b), 1);
             if (!inside) misfit_sum_ += double(misfit) * misfit, ++misfit_count_;
         }
     }
     const std::uint32_t before = static_cast<std::uint32_t>(mesh_.vertices.size());
+    // Where there are more than may be added, the largest misfits by area come first.
+    std::vector<std::pair<float, std::uint32_t>> wanted;
     for (const std::uint32_t n : open_) {
-        if (mesh_.vertices.size() >= params_.most_vertices) break;
         const glm::uvec3 v = mesh_.nodes[n].vertices;
-        bool split = false;
+        float worst = 0;
         for (int k = 0; k < 3; ++k) {
             const auto slot = edge_slot_.find(Bisection::edge_key(v[k], v[(k + 1) % 3]));
-            split = split || (slot != edge_slot_.end() && bent[slot->second]);
+            if (slot != edge_slot_.end()) worst = std::max(worst, bent[slot->second]);
         }
-        if (split && mesh_.nodes[n].children == no_index) bisection_.split(n);
+        const int longest = bisection_.longest_edge(n);
+        if (worst > 0) wanted.emplace_back(worst * bisection_.edge_length(v[longest], v[(longest + 1) % 3]), n);
+    }
+    std::sort(wanted.begin(), wanted.end(), [](const auto& a, const auto& b) {
+        return a.first != b.first ? a.first > b.first : a.second < b.second;
+    });
+    for (const auto& [misfit, n] : wanted) {
+        if (mesh_.vertices.size() >= params_.most_vertices) break;
+        if (mesh_.nodes[n].children == no_index) bisection_.split(n);
     }
     // New vertices at middles that were looked at are lit already; the others (made for conformity) are lit now.
     const std::uint32_t after = static_cast<std::uint32_t>(mesh_.vertices.size());

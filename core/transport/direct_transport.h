@@ -28,6 +28,7 @@ public:
     DirectTransport(const World& world, Mesh& mesh, std::vector<Emitter> emitters, const DirectParams& params);
 
     // Each brings its stage forward by one time slice; true when the stage is done.
+    bool sketch(const std::atomic<bool>& cancel);         // a first guess of D at the vertices there are, one ray each
     bool light_vertices(const std::atomic<bool>& cancel); // D at the vertices there are
     bool refine(const std::atomic<bool>& cancel);         // then split, level by level, and light the new ones
 
@@ -38,7 +39,7 @@ public:
     const std::vector<std::uint8_t>& buried() const { return buried_; } // one a vertex; set for dark vertices inside solids
     double misfit() const { return misfit_; }  // RMS relative misfit at the middles of edges that were left whole
     std::uint64_t rays() const { return rays_.load(); }
-    double progress() const;
+    double progress() const; // of the stage that runs, 0..1
 
 private:
     struct EdgeMiddle {
@@ -60,7 +61,7 @@ private:
     std::vector<float> factors_; // vertices * emitters
     std::vector<std::uint8_t> buried_;
     std::vector<glm::vec3> origins_;
-    std::uint32_t vertex_cursor_ = 0;
+    std::uint32_t sketch_cursor_ = 0, vertex_cursor_ = 0;
 
     std::vector<EdgeMiddle> edges_;      // of this level, and their D
     std::vector<float> edge_factors_;

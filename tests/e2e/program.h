@@ -1,5 +1,5 @@
-// The built program in a window on a virtual screen, worked by hand: xdotool presses real buttons at the places that the program
-// names in its layout file (LUEUR_UI_LAYOUT).
+// The built program in a window on a virtual screen, worked by hand: xdotool presses real buttons at the places that
+// the program names in its layout file (LUEUR_UI_LAYOUT).
 #pragma once
 
 #include <chrono>
@@ -78,7 +78,9 @@ public:
     // Solved, and drawn with many samples a pixel.
     bool wait_still() const {
         rest(0.3); // what was just pressed has been seen
-        const auto still = [](const nlohmann::json& json) { return json["settled"] == true && json["refined"] == true; };
+        const auto still = [](const nlohmann::json& json) {
+            return json["settled"] == true && json["refined"] == true;
+        };
         if (!wait(still)) return false;
         rest(0.4);
         return wait(still);
@@ -98,7 +100,8 @@ public:
     }
 
     void hand(const std::string& actions) const { // words of xdotool
-        if (std::system(("xdotool " + actions + " > /dev/null 2>&1").c_str()) != 0) ADD_FAILURE() << "xdotool " << actions;
+        if (std::system(("xdotool " + actions + " > /dev/null 2>&1").c_str()) != 0)
+            ADD_FAILURE() << "xdotool " << actions;
         rest(0.12);
     }
     void click(double x, double y) const {
@@ -115,7 +118,8 @@ public:
         const auto place = box(widget);
         hand(fmt::format("mousemove {:.0f} {:.0f}", place.x(from), place.y()));
         hand("mousedown 1");
-        for (int i = 1; i <= 5; ++i) hand(fmt::format("mousemove {:.0f} {:.0f}", place.x(from + (to - from) * i / 5), place.y()));
+        for (int i = 1; i <= 5; ++i)
+            hand(fmt::format("mousemove {:.0f} {:.0f}", place.x(from + (to - from) * i / 5), place.y()));
         hand("mouseup 1");
         rest(0.15);
     }

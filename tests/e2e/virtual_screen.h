@@ -37,12 +37,13 @@ public:
         process_ = fork();
         if (process_ == 0) {
             close(ends[0]);
-            const auto number = std::to_string(ends[1]), size = std::to_string(width) + "x" + std::to_string(height) + "x24";
+            const auto number = std::to_string(ends[1]),
+                       size = std::to_string(width) + "x" + std::to_string(height) + "x24";
             const auto log = (folder_ / "log").string();
             prctl(PR_SET_PDEATHSIG, SIGTERM); // a test that crashes leaves no screen behind
             if (!std::freopen(log.c_str(), "w", stderr) || !std::freopen("/dev/null", "w", stdout)) _exit(126);
-            execlp("Xvfb", "Xvfb", "-displayfd", number.c_str(), "-screen", "0", size.c_str(), "-nolisten", "tcp", "-fbdir",
-                   folder_.c_str(), static_cast<char*>(nullptr));
+            execlp("Xvfb", "Xvfb", "-displayfd", number.c_str(), "-screen", "0", size.c_str(), "-nolisten", "tcp",
+                   "-fbdir", folder_.c_str(), static_cast<char*>(nullptr));
             _exit(127);
         }
         close(ends[1]);
@@ -67,7 +68,9 @@ public:
     Pixels pixels() const {
         std::ifstream file(folder_ / "Xvfb_screen0", std::ios::binary);
         const std::vector<char> bytes((std::istreambuf_iterator<char>(file)), {});
-        const auto byte = [&](std::size_t i) { return static_cast<std::uint32_t>(static_cast<unsigned char>(bytes.at(i))); };
+        const auto byte = [&](std::size_t i) {
+            return static_cast<std::uint32_t>(static_cast<unsigned char>(bytes.at(i)));
+        };
         const auto field = [&](std::size_t n) { // the header's 32-bit fields are big-endian
             return byte(4 * n) << 24 | byte(4 * n + 1) << 16 | byte(4 * n + 2) << 8 | byte(4 * n + 3);
         };

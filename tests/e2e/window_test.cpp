@@ -15,7 +15,9 @@ namespace {
 using test::Pixels;
 using test::Program;
 
-double linear(std::uint8_t value) { return srgb_decode(value / 255.0); }
+double linear(std::uint8_t value) {
+    return srgb_decode(value / 255.0);
+}
 
 // Where a point in millimetres of the Cornell box's own axes is on the screen.
 struct Projection {
@@ -23,7 +25,8 @@ struct Projection {
     test::Box viewport;
     std::array<int, 2> operator()(double x, double y, double z) const {
         const double width = viewport.x1 - viewport.x0, height = viewport.y1 - viewport.y0;
-        const auto clip = clip_from_world(camera, width / height, 0.01, 100) * glm::dvec4(0.001 * x, 0.001 * y, 0.001 * z, 1);
+        const auto clip =
+            clip_from_world(camera, width / height, 0.01, 100) * glm::dvec4(0.001 * x, 0.001 * y, 0.001 * z, 1);
         return {static_cast<int>(viewport.x0 + (0.5 + 0.5 * clip.x / clip.w) * width),
                 static_cast<int>(viewport.y0 + (0.5 - 0.5 * clip.y / clip.w) * height)};
     }
@@ -94,7 +97,8 @@ TEST(Window, DimsRepaintsDisplaysAndSavesTheCornellBox) {
     // The red wall: a click selects it, and painted blue it throws blue on the block and no more red.
     program.click("tab:Materials");
     program.click(red_wall[0], red_wall[1]);
-    ASSERT_TRUE(program.wait([](const nlohmann::json& json) { return !json["selected"].is_null(); }, 10)) << "a click selects";
+    ASSERT_TRUE(program.wait([](const nlohmann::json& json) { return !json["selected"].is_null(); }, 10))
+        << "a click selects";
     program.click("reflectance_kind:Colour");
     program.drag("reflectance:Red", 0.5, 0.02);
     program.drag("reflectance:Green", 0.5, 0.1);
@@ -127,11 +131,15 @@ TEST(Window, DimsRepaintsDisplaysAndSavesTheCornellBox) {
     ASSERT_LT(gamma, 2);
     const auto by_gamma = program.screen();
     std::size_t compared = 0, wrong = 0;
-    const auto shown = [&](double encoded) { return 255 * std::pow(srgb_decode(std::clamp(encoded, 0.0, 255.0) / 255), 1 / gamma); };
+    const auto shown = [&](double encoded) {
+        return 255 * std::pow(srgb_decode(std::clamp(encoded, 0.0, 255.0) / 255), 1 / gamma);
+    };
     for (int y = static_cast<int>(place.viewport.y0) + 40; y < static_cast<int>(place.viewport.y1) - 80; ++y)
         for (int x = static_cast<int>(place.viewport.x0) + 8; x < static_cast<int>(place.viewport.x1) - 8; ++x) {
             // Where there is nothing the backdrop stays; on an edge samples are averaged after the curve.
-            if (by_srgb.at(x, y) == by_srgb.at(static_cast<int>(place.viewport.x0) + 30, static_cast<int>(place.viewport.y0) + 300)) continue;
+            if (by_srgb.at(x, y) ==
+                by_srgb.at(static_cast<int>(place.viewport.x0) + 30, static_cast<int>(place.viewport.y0) + 300))
+                continue;
             if (!flat_around(by_srgb, x, y)) continue;
             ++compared;
             for (std::size_t c = 0; c < 3; ++c) {
@@ -166,7 +174,8 @@ TEST(Window, DimsRepaintsDisplaysAndSavesTheCornellBox) {
     ASSERT_EQ(picture->width, static_cast<int>(place.viewport.x1 - place.viewport.x0));
     ASSERT_EQ(picture->height, static_cast<int>(place.viewport.y1 - place.viewport.y0));
     for (const auto& spot : {floor, back, red_wall}) {
-        const auto index = static_cast<std::size_t>(spot[1] - static_cast<int>(place.viewport.y0)) * static_cast<std::size_t>(picture->width) +
+        const auto index = static_cast<std::size_t>(spot[1] - static_cast<int>(place.viewport.y0)) *
+                               static_cast<std::size_t>(picture->width) +
                            static_cast<std::size_t>(spot[0] - static_cast<int>(place.viewport.x0));
         for (int c = 0; c < 3; ++c) {
             const double in_file = 255 * srgb_encode(static_cast<double>(picture->rgb[index][c]));
@@ -186,7 +195,8 @@ TEST(Window, DimsRepaintsDisplaysAndSavesTheCornellBox) {
 
 TEST(Window, WithoutADisplayItSaysSoAndEnds) {
     const auto output = std::filesystem::temp_directory_path() / fmt::format("lueur-no-display-{}", getpid());
-    const auto command = fmt::format("env -u DISPLAY -u WAYLAND_DISPLAY {} 2> {} > /dev/null", LUEUR_PROGRAM, output.string());
+    const auto command =
+        fmt::format("env -u DISPLAY -u WAYLAND_DISPLAY {} 2> {} > /dev/null", LUEUR_PROGRAM, output.string());
     const int status = std::system(command.c_str());
     EXPECT_EQ(WEXITSTATUS(status), 1);
     std::ifstream stream(output);

@@ -1,4 +1,5 @@
-// When MAXDISPLAY may change by itself: at the first light, once when settled, and never after an edit while it is locked.
+// When MAXDISPLAY may change by itself: at the first light, once when settled, and never after an edit while it is
+// locked.
 #include "ui/exposure.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +15,8 @@ Scene lit_room() {
     test::SceneBuilder builder;
     const auto paint = builder.material("paint", 0.5);
     builder.room("room", {paint, paint, paint, paint, paint, paint}, {0, 0, 0}, {4, 3, 4});
-    const auto lamp = builder.polygon("lamp", paint, {{1.5f, 2.9f, 1.5f}, {2.5f, 2.9f, 1.5f}, {2.5f, 2.9f, 2.5f}, {1.5f, 2.9f, 2.5f}});
+    const auto lamp = builder.polygon("lamp", paint,
+                                      {{1.5f, 2.9f, 1.5f}, {2.5f, 2.9f, 1.5f}, {2.5f, 2.9f, 2.5f}, {1.5f, 2.9f, 2.5f}});
     builder.light("lamp", {lamp}, PowerUnit::lumen, 2000);
     auto& scene = builder.settings();
     scene.camera.position = {2, 1.5, 3.8};

@@ -27,7 +27,8 @@ Camera some_camera(bool mirrored) {
 }
 
 class BothHands : public testing::TestWithParam<bool> {};
-INSTANTIATE_TEST_SUITE_P(Navigation, BothHands, testing::Bool(), [](const auto& hand) { return hand.param ? "mirrored" : "plain"; });
+INSTANTIATE_TEST_SUITE_P(Navigation, BothHands, testing::Bool(),
+                         [](const auto& hand) { return hand.param ? "mirrored" : "plain"; });
 
 TEST_P(BothHands, PanningKeepsTheTargetUnderTheHand) {
     const auto before = some_camera(GetParam());
@@ -97,14 +98,26 @@ TEST(Navigation, NoSeriesOfMovementsMakesACameraThatSeesNothing) {
         camera.position = camera.target; // the worst start: no direction at all
         for (int i = 0; i < 2000; ++i) {
             switch (i % 5) {
-            case 0: camera = orbited(camera, {any(random), any(random)}); break;
-            case 1: camera = panned(camera, {any(random), any(random)}); break;
-            case 2: camera = dollied(camera, 20 * any(random), 10); break;
-            case 3: camera = looked_around(camera, {any(random), any(random)}); break;
-            case 4: camera = flown(camera, {any(random), any(random), any(random)}); break;
+            case 0:
+                camera = orbited(camera, {any(random), any(random)});
+                break;
+            case 1:
+                camera = panned(camera, {any(random), any(random)});
+                break;
+            case 2:
+                camera = dollied(camera, 20 * any(random), 10);
+                break;
+            case 3:
+                camera = looked_around(camera, {any(random), any(random)});
+                break;
+            case 4:
+                camera = flown(camera, {any(random), any(random), any(random)});
+                break;
             }
-            // Far away it ends up by chance; back home, so that what is tested is directions and not the range of doubles.
-            if (glm::length(camera.position) > 1e6) camera = framed(camera, Bounds{{-1, -1, -1}, {1, 1, 1}, false}, aspect);
+            // Far away it ends up by chance; back home, so that what is tested is directions and not the range of
+            // doubles.
+            if (glm::length(camera.position) > 1e6)
+                camera = framed(camera, Bounds{{-1, -1, -1}, {1, 1, 1}, false}, aspect);
             const auto direction = camera.target - camera.position;
             ASSERT_TRUE(std::isfinite(direction.x + direction.y + direction.z)) << i;
             ASSERT_GT(glm::length(direction), 0) << i;

@@ -1,4 +1,5 @@
-// The panels in an ImGui context without a window: they change nothing untouched, and a drag of a real widget gives its edit.
+// The panels in an ImGui context without a window: they change nothing untouched, and a drag of a real widget gives its
+// edit.
 #include "ui/panels.h"
 
 #include <fstream>
@@ -20,7 +21,8 @@ Scene scene_of_all_kinds() {
     test::SceneBuilder builder;
     const auto grey = builder.material("grey", 0.6);
     const auto coloured = builder.material("red paint", Rgb(0.8, 0.1, 0.2));
-    const auto measured = builder.material("measured", SpectrumFile{"paint.csv", "x", Spectrum{{400, 700}, {0.2, 0.7}}});
+    const auto measured =
+        builder.material("measured", SpectrumFile{"paint.csv", "x", Spectrum{{400, 700}, {0.2, 0.7}}});
     builder.room("room", {grey, grey, coloured, measured, grey, grey}, {0, 0, 0}, {4, 3, 4});
     std::vector<ObjectIndex> lamps;
     for (int i = 0; i < 4; ++i) {
@@ -31,7 +33,8 @@ Scene scene_of_all_kinds() {
     builder.light("flat", {lamps[0]}, PowerUnit::lumen, 1000, Flat{});
     builder.light("warm", {lamps[1]}, PowerUnit::watt, 12, Blackbody{2700});
     builder.light("coloured", {lamps[2]}, PowerUnit::exitance, 30, Rgb(1, 0.4, 0.2));
-    builder.light("measured", {lamps[3]}, PowerUnit::radiance, 10, SpectrumFile{"lamp.csv", "", Spectrum{{400, 550, 700}, {0, 1, 0}}});
+    builder.light("measured", {lamps[3]}, PowerUnit::radiance, 10,
+                  SpectrumFile{"lamp.csv", "", Spectrum{{400, 550, 700}, {0, 1, 0}}});
     return builder.build();
 }
 
@@ -74,7 +77,8 @@ protected:
         std::ifstream stream(layout_file_);
         return nlohmann::json::parse(stream).at("widgets").at(name).get<std::array<float, 4>>();
     }
-    // Presses at one place of the widget and lets go at another, in shares of its width; every edit on the way is applied.
+    // Presses at one place of the widget and lets go at another, in shares of its width; every edit on the way is
+    // applied.
     std::vector<Edit> drag(Panel panel, const std::string& name, float from, float to) {
         auto& io = ImGui::GetIO();
         std::vector<Edit> edits;
@@ -210,7 +214,8 @@ TEST_F(PanelsTest, ReadoutsDrawWithAndWithoutAnythingToShow) {
         return {};
     };
     EXPECT_FALSE(frame(show).has_value());
-    for (int i = 0; i < 200; ++i) snapshot_.history.push_back({0.01 * i, i == 7 ? 0.0 : std::pow(0.9, i), 1.0 / (1 + i)});
+    for (int i = 0; i < 200; ++i)
+        snapshot_.history.push_back({0.01 * i, i == 7 ? 0.0 : std::pow(0.9, i), 1.0 / (1 + i)});
     snapshot_.status.stage = SolveStage::solving;
     snapshot_.status.progress = 0.5;
     snapshot_.status.message = "a warning";

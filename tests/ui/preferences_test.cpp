@@ -9,7 +9,8 @@ namespace lueur {
 namespace {
 
 struct Folder {
-    std::filesystem::path path = std::filesystem::temp_directory_path() / ("lueur-preferences-" + std::to_string(getpid()));
+    std::filesystem::path path =
+        std::filesystem::temp_directory_path() / ("lueur-preferences-" + std::to_string(getpid()));
     ~Folder() { std::filesystem::remove_all(path); }
 };
 
@@ -37,7 +38,8 @@ TEST(Preferences, ComeBackAsTheyWere) {
 TEST(Preferences, RubbishGivesDefaults) {
     const Folder folder;
     std::filesystem::create_directories(folder.path);
-    for (const char* text : {"", "{", "[]", "{\"width\": \"wide\", \"recent\": 3}", "{\"width\": -5, \"scale\": 1e9}"}) {
+    for (const char* text :
+         {"", "{", "[]", "{\"width\": \"wide\", \"recent\": 3}", "{\"width\": -5, \"scale\": 1e9}"}) {
         const auto file = folder.path / "window.json";
         std::ofstream(file) << text;
         const auto preferences = load_preferences(file);

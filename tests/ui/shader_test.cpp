@@ -1,4 +1,5 @@
-// The window's shaders against core/display: the same radiance and settings give the same bytes, within one step of 255.
+// The window's shaders against core/display: the same radiance and settings give the same bytes, within one step of
+// 255.
 #include "ui/renderer.h"
 
 #include <cmath>
@@ -77,7 +78,8 @@ Chart make_chart(const std::vector<glm::vec3>& xyz, std::optional<Texture> textu
             field->emitted_xyz.push_back(texture ? glm::vec3(0) : 0.75f * xyz[i]);
             field->unshot.push_back(0);
         }
-        for (const glm::uvec3 triangle : {glm::uvec3(first, first + 1, first + 2), glm::uvec3(first, first + 2, first + 3)}) {
+        for (const glm::uvec3 triangle :
+             {glm::uvec3(first, first + 1, first + 2), glm::uvec3(first, first + 2, first + 3)}) {
             mesh->elements.push_back(triangle);
             mesh->element_surface.push_back(static_cast<std::uint32_t>(i));
             mesh->element_back.push_back(0);
@@ -114,13 +116,15 @@ RenderParams params_for(const Camera& camera, const DisplaySettings& display, in
     return params;
 }
 
-// What was drawn; a moving picture may have fewer pixels than were asked for. Rows from the bottom, as OpenGL keeps them.
+// What was drawn; a moving picture may have fewer pixels than were asked for. Rows from the bottom, as OpenGL keeps
+// them.
 struct Shown {
     int size = 0;
     std::vector<std::array<std::uint8_t, 4>> rgba;
     const std::array<std::uint8_t, 4>& at(const Camera& camera, const glm::dvec3& point) const {
         const auto clip = clip_from_world(camera, 1, 0.1, 1000) * glm::dvec4(point, 1);
-        const auto x = static_cast<int>((0.5 + 0.5 * clip.x / clip.w) * size), y = static_cast<int>((0.5 + 0.5 * clip.y / clip.w) * size);
+        const auto x = static_cast<int>((0.5 + 0.5 * clip.x / clip.w) * size),
+                   y = static_cast<int>((0.5 + 0.5 * clip.y / clip.w) * size);
         return rgba.at(static_cast<std::size_t>(y * size + x));
     }
 };
@@ -147,14 +151,13 @@ std::vector<glm::vec3> random_radiances(std::uint32_t seed, double max_display) 
     return result;
 }
 
-void expect_same(const Chart& chart, const Camera& camera, const DisplaySettings& display,
-                 const Shown& shown) {
+void expect_same(const Chart& chart, const Camera& camera, const DisplaySettings& display, const Shown& shown) {
     const auto expected = display_image({side, static_cast<int>(chart.xyz.size()) / side, chart.xyz}, display);
     for (std::size_t i = 0; i < chart.xyz.size(); ++i)
         for (std::size_t c = 0; c < 3; ++c) {
             const int difference = std::abs(shown.at(camera, chart.centres[i])[c] - expected.rgb[i][c]);
-            ASSERT_LE(difference, 1) << "patch " << i << " component " << c << " XYZ " << chart.xyz[i].x << " " << chart.xyz[i].y
-                                     << " " << chart.xyz[i].z << " clip " << to_string(display.clip);
+            ASSERT_LE(difference, 1) << "patch " << i << " component " << c << " XYZ " << chart.xyz[i].x << " "
+                                     << chart.xyz[i].y << " " << chart.xyz[i].z << " clip " << to_string(display.clip);
         }
 }
 
@@ -163,7 +166,8 @@ TEST_F(ShaderTest, ShowsWhatTheFileWriterWrites) {
     for (const double max_display : {0.5, 100.0, 20000.0}) {
         const auto chart = make_chart(random_radiances(seed++, max_display));
         renderer_->set_snapshot(chart.snapshot);
-        for (const auto clip : {ClipRule::clamp, ClipRule::keep_chromaticity, ClipRule::desaturate, ClipRule::scale_all})
+        for (const auto clip :
+             {ClipRule::clamp, ClipRule::keep_chromaticity, ClipRule::desaturate, ClipRule::scale_all})
             for (const auto curve : {TransferCurve::srgb, TransferCurve::gamma})
                 for (const double gamma : {0.6, 1.0, 2.2, 3.0}) {
                     if (curve == TransferCurve::srgb && gamma != 2.2) continue;

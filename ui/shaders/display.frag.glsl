@@ -67,13 +67,13 @@ vec3 colour_of(vec4 value) {
     float over = value.a > 2.95 ? value.a - 3.0 : value.a - 1.0;
     vec3 colour;
     if (show_unshot) {
-        if (value.r < 0.0) colour = vec3(1);
+        if (value.r < -0.5) colour = vec3(1); // the patch that shoots
         else {
             float decade = log(max(value.r, 1e-12)) / log(10.0);
             colour = false_colour(clamp((decade - log_low) / (log_high - log_low), 0.0, 1.0));
         }
     } else colour = displayed(value.rgb * rescale);
-    if (over > 0.004) colour = mix(colour, dot(colour, vec3(0.3, 0.6, 0.1)) > 0.55 ? vec3(0) : line_colour, min(over, 1.0) * 0.45);
+    if (over > 0.004) colour = mix(colour, dot(colour, vec3(0.3, 0.6, 0.1)) > 0.75 ? vec3(0) : line_colour, min(over, 1.0) * 0.45);
     return colour;
 }
 
