@@ -1,6 +1,7 @@
 // Unshot flux and estimated error against solve time, on a logarithmic axis with a line at each decade.
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -94,14 +95,32 @@ void convergence_plot(const Snapshot& snapshot, double target_error, UiState& st
 
     draw->PushClipRect(low, high, true);
     const auto curve = [&](double ConvergencePoint::*member, const ImVec4& colour) {
-        const ConvergencePoint* before = nullptr;
+        if (history.empty()) return;
+        // A solve of minutes has thousands of points: a column of pixels shows where it enters, its extremes and where
+        // it leaves.
+        std::vector<ImVec2> line_points;
+        float column = -1, lowest = 0, highest = 0;
+        ImVec2 newest{};
+        const auto finish_column = [&] {
+            for (const float y : {lowest, highest, newest.y})
+                if (line_points.back().y != y) line_points.push_back({newest.x, y});
+        };
         for (const auto& point : history) {
-            if (before)
-                draw->AddLine({x_of(before->seconds), y_of(before->*member)},
-                              {x_of(point.seconds), y_of(point.*member)}, packed(colour), 1.7f * scale);
-            before = &point;
+            const ImVec2 place{x_of(point.seconds), y_of(point.*member)};
+            if (std::floor(place.x) != column) {
+                if (!line_points.empty()) finish_column();
+                column = std::floor(place.x);
+                lowest = highest = place.y;
+                line_points.push_back(place);
+            }
+            lowest = std::max(lowest, place.y);
+            highest = std::min(highest, place.y);
+            newest = place;
         }
-        if (before) draw->AddCircleFilled({x_of(before->seconds), y_of(before->*member)}, 2.8f * scale, packed(colour));
+        finish_column();
+        draw->AddPolyline(line_points.data(), static_cast<int>(line_points.size()), packed(colour), ImDrawFlags_None,
+                          1.7f * scale);
+        draw->AddCircleFilled(newest, 2.8f * scale, packed(colour));
     };
     curve(&ConvergencePoint::unshot_share, colours::accent);
     curve(&ConvergencePoint::error, colours::error_estimate);

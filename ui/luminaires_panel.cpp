@@ -206,7 +206,7 @@ std::optional<Edit> luminaire_row(const Scene& scene, std::size_t i, UiState& st
     draw->AddText(open ? state.fonts.heading : state.fonts.regular, ImGui::GetFontSize(), text_place,
                   packed(colours::text), luminaire.name.c_str());
     draw->PopClipRect();
-    tooltip(state, luminaire.name.c_str());
+    if (ImGui::CalcTextSize(luminaire.name.c_str()).x > name_width - 32 * scale) tooltip(state, luminaire.name.c_str());
     ImGui::SameLine(0, gap);
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - 2 * (small + gap));
     auto percent = static_cast<float>(100 * luminaire.dimmer);

@@ -4,7 +4,6 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <numeric>
 
 #include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -33,12 +32,6 @@ constexpr const char* screen_vertex_shader =
 constexpr const char* display_fragment_shader =
 #include "ui/shaders/display.frag.glsl"
     ;
-
-template <typename Vector>
-void fill(GLenum target, GLuint buffer, const Vector& values, GLenum usage) {
-    glBindBuffer(target, buffer);
-    glBufferData(target, static_cast<GLsizeiptr>(values.size() * sizeof(values[0])), values.data(), usage);
-}
 
 GLint place(GLuint program, const char* name) {
     return glGetUniformLocation(program, name);
@@ -120,126 +113,6 @@ std::expected<std::unique_ptr<Renderer>, std::string> Renderer::make() {
     glBindVertexArray(0);
     r.coarse_texture_ = new_texture();
     return renderer;
-}
-
-void Renderer::set_snapshot(const Snapshot& snapshot) {
-    const bool new_mesh = snapshot.mesh != mesh_;
-    if (!snapshot.mesh || !snapshot.scene || !snapshot.field) {
-        if (mesh_) stale_ = true;
-        mesh_.reset();
-        field_.reset();
-        scene_.reset();
-        batches_.clear();
-        surface_images_.clear();
-        return;
-    }
-    if (new_mesh) {
-        mesh_ = snapshot.mesh;
-        bounds_ = bounds_of(*snapshot.scene->geometry);
-        upload_mesh(*mesh_, *snapshot.scene);
-        surface_images_.clear();
-        stale_ = true;
-    }
-    if (new_mesh || snapshot.scene != scene_) {
-        scene_ = snapshot.scene;
-        upload_elements(*mesh_, *scene_);
-    }
-    if (new_mesh || snapshot.field != field_) {
-        field_ = snapshot.field;
-        upload_field(*field_);
-        stale_ = true;
-    }
-    if (snapshot.status.shooting_patch != shooting_) {
-        shooting_ = snapshot.status.shooting_patch;
-        stale_ = true;
-    }
-}
-
-void Renderer::upload_mesh(const Mesh& mesh, const Scene& scene) {
-    std::vector<glm::vec3> positions;
-    std::vector<glm::vec2> uvs;
-    std::vector<std::uint32_t> objects;
-    positions.reserve(mesh.vertices.size());
-    for (const auto& vertex : mesh.vertices) {
-        positions.push_back(vertex.position);
-        uvs.push_back(vertex.uv);
-        objects.push_back(static_cast<std::uint32_t>(scene.geometry->surfaces[vertex.surface].object));
-    }
-    fill(GL_ARRAY_BUFFER, positions_, positions, GL_STATIC_DRAW);
-    fill(GL_ARRAY_BUFFER, uvs_, uvs, GL_STATIC_DRAW);
-    fill(GL_ARRAY_BUFFER, objects_, objects, GL_STATIC_DRAW);
-}
-
-// Elements in batches of one texture. Runs when the mesh or the textures of its surfaces have changed.
-void Renderer::upload_elements(const Mesh& mesh, const Scene& scene) {
-    std::vector<std::shared_ptr<const TextureImage>> images;
-    std::vector<MaterialIndex> materials;
-    for (const auto& surface : scene.geometry->surfaces) {
-        const auto material = scene.objects[at(surface.object)].material;
-        const auto& texture = scene.materials[at(material)].texture;
-        images.push_back(texture ? texture->image : nullptr);
-        materials.push_back(material);
-    }
-    if (!surface_images_.empty() && images == surface_images_ && materials == surface_materials_) return;
-    surface_images_ = std::move(images);
-    surface_materials_ = std::move(materials);
-    stale_ = true;
-
-    // Only textured materials need a batch of their own; their order is that of the scene.
-    const auto key = [&](std::uint32_t element) {
-        const auto surface = mesh.element_surface[element];
-        return surface_images_[surface] ? at(surface_materials_[surface]) + 1 : 0;
-    };
-    std::vector<std::uint32_t> order(mesh.elements.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::ranges::stable_sort(order, {}, key);
-
-    std::vector<glm::uvec3> elements;
-    std::vector<std::uint32_t> coarse;
-    elements.reserve(order.size());
-    batches_.clear();
-    std::size_t present = 0;
-    for (const auto element : order) {
-        if (batches_.empty() || key(element) != present) {
-            present = key(element);
-            const auto surface = mesh.element_surface[element];
-            batches_.push_back({surface_images_[surface].get(), surface_materials_[surface], elements.size(), 0});
-        }
-        ++batches_.back().count;
-        elements.push_back(mesh.elements[element]);
-        coarse.push_back(mesh.coarse_patch[mesh.element_coarse[element]]);
-    }
-    glBindVertexArray(vertex_array_);
-    fill(GL_ELEMENT_ARRAY_BUFFER, elements_, elements, GL_STATIC_DRAW);
-    glBindVertexArray(0);
-    fill(GL_TEXTURE_BUFFER, coarse_, coarse, GL_STATIC_DRAW);
-    glBindTexture(GL_TEXTURE_BUFFER, coarse_texture_);
-    glTexBuffer(GL_TEXTURE_BUFFER, GL_R32UI, coarse_);
-
-    std::map<const TextureImage*, GlTexture> textures;
-    for (const auto& batch : batches_) {
-        if (!batch.image || textures.contains(batch.image)) continue;
-        if (auto known = textures_.extract(batch.image)) {
-            textures.insert(std::move(known));
-            continue;
-        }
-        auto texture = new_texture();
-        glBindTexture(GL_TEXTURE_2D, texture);
-        glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB16F, batch.image->width, batch.image->height, 0, GL_RGB, GL_FLOAT,
-                     batch.image->rgb.data());
-        glGenerateMipmap(GL_TEXTURE_2D);
-        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-        textures.emplace(batch.image, std::move(texture));
-    }
-    textures_ = std::move(textures);
-}
-
-void Renderer::upload_field(const Field& field) {
-    fill(GL_ARRAY_BUFFER, reflected_, field.reflected_xyz, GL_STREAM_DRAW);
-    fill(GL_ARRAY_BUFFER, emitted_, field.emitted_xyz, GL_STREAM_DRAW);
-    fill(GL_ARRAY_BUFFER, unshot_, field.unshot, GL_STREAM_DRAW);
 }
 
 void Renderer::make_target(int width, int height, int samples) {

@@ -57,14 +57,14 @@ void apply_theme(float scale) {
     style.IndentSpacing = 14;
     style.ScrollbarSize = 12;
     style.GrabMinSize = 7;
-    style.WindowRounding = 0;
+    style.WindowRounding = 6; // of dialogs: the fixed windows draw no ground
     style.ChildRounding = 4;
     style.FrameRounding = 4;
     style.PopupRounding = 6;
     style.ScrollbarRounding = 6;
     style.GrabRounding = 4;
     style.TabRounding = 4;
-    style.WindowBorderSize = 0;
+    style.WindowBorderSize = 1;
     style.ChildBorderSize = 0;
     style.PopupBorderSize = 1;
     style.FrameBorderSize = 0;
@@ -78,7 +78,7 @@ void apply_theme(float scale) {
     auto* c = style.Colors;
     c[ImGuiCol_Text] = text;
     c[ImGuiCol_TextDisabled] = dim;
-    c[ImGuiCol_WindowBg] = panel;
+    c[ImGuiCol_WindowBg] = raised;
     c[ImGuiCol_ChildBg] = grey(0, 0);
     c[ImGuiCol_PopupBg] = grey(0.17f, 0.98f);
     c[ImGuiCol_Border] = line;

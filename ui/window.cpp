@@ -74,9 +74,17 @@ std::expected<std::unique_ptr<Window>, std::string> Window::open(const WindowPar
         of(w).events_.any = of(w).events_.scale_changed = true;
         of(w).fonts_stale_ = true;
     });
-    glfwSetCursorPosCallback(handle, [](GLFWwindow* w, double, double) { of(w).events_.any = true; });
+    glfwSetCursorPosCallback(handle, [](GLFWwindow* w, double x, double y) {
+        of(w).events_.any = true;
+        of(w).mouse_events_.push_back({-1, false, x, y});
+    });
     glfwSetCursorEnterCallback(handle, [](GLFWwindow* w, int) { of(w).events_.any = true; });
-    glfwSetMouseButtonCallback(handle, [](GLFWwindow* w, int, int, int) { of(w).events_.any = true; });
+    glfwSetMouseButtonCallback(handle, [](GLFWwindow* w, int button, int action, int) {
+        of(w).events_.any = true;
+        MouseEvent event{button, action == GLFW_PRESS, 0, 0};
+        glfwGetCursorPos(w, &event.x, &event.y);
+        of(w).mouse_events_.push_back(event);
+    });
     glfwSetScrollCallback(handle, [](GLFWwindow* w, double, double) { of(w).events_.any = true; });
     glfwSetCharCallback(handle, [](GLFWwindow* w, unsigned) { of(w).events_.any = true; });
     glfwSetWindowFocusCallback(handle, [](GLFWwindow* w, int) { of(w).events_.any = true; });
@@ -156,7 +164,32 @@ void Window::begin_frame() {
     ImGui::GetIO().KeyMap[ImGuiKey_Tab] = ImGui::GetIO().WantTextInput ? GLFW_KEY_TAB : -1;
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
+    replay_mouse();
     ImGui::NewFrame();
+}
+
+// ImGui 1.86 sees the mouse as it is at the start of a frame. Where frames are slow, a drag and its end fall into one
+// frame and the last part of the drag would be lost: so a frame gets either movements or one button, in the order in
+// which they came.
+void Window::replay_mouse() {
+    bool moved = false;
+    while (!mouse_events_.empty()) {
+        const auto event = mouse_events_.front();
+        if (event.button >= 0 && moved) break;
+        mouse_events_.pop_front();
+        mouse_ = event;
+        if (event.button < 0) {
+            moved = true;
+            continue;
+        }
+        if (event.button < static_cast<int>(mouse_down_.size()))
+            mouse_down_[static_cast<std::size_t>(event.button)] = event.down;
+        break;
+    }
+    auto& io = ImGui::GetIO();
+    if (io.MousePos.x > -1e30f)
+        io.MousePos = {static_cast<float>(mouse_.x), static_cast<float>(mouse_.y)}; // else outside
+    for (std::size_t i = 0; i < mouse_down_.size(); ++i) io.MouseDown[i] = mouse_down_[i];
 }
 
 void Window::end_frame(const Underlay& under) {

@@ -2,6 +2,8 @@
 // callbacks.
 #pragma once
 
+#include <array>
+#include <deque>
 #include <expected>
 #include <filesystem>
 #include <memory>
@@ -48,6 +50,7 @@ public:
     void set_scale(double scale); // the user's own, on top of the monitor's
     void set_title(const std::string& title);
     void begin_frame();
+    bool has_more_input() const { return !mouse_events_.empty(); } // for the next frame
     // What lies under the panels: a framebuffer stretched over a part of the window, in pixels from the top left.
     struct Underlay {
         unsigned framebuffer = 0;
@@ -68,10 +71,19 @@ public:
 private:
     Window() = default;
     void make_fonts();
+    void replay_mouse();
     static Window& of(GLFWwindow* window);
 
     GLFWwindow* window_ = nullptr;
     WindowEvents events_;
+    struct MouseEvent {
+        int button = -1; // -1: a movement
+        bool down = false;
+        double x = 0, y = 0;
+    };
+    std::deque<MouseEvent> mouse_events_;
+    MouseEvent mouse_; // where it is now, as ImGui has been told
+    std::array<bool, 3> mouse_down_{};
     double user_scale_ = 1;
     float scale_ = 1;
     bool fonts_stale_ = false;

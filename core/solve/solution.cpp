@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -23,7 +24,7 @@ constexpr std::uint32_t most_sweeps = 400; // a system that needs more does not 
 constexpr std::uint32_t fine_vertices = 25000; // that direct light may add: the window has to draw them
 constexpr double receiver_cell = 0.3;      // of the coarse element size
 constexpr double ray_share = 0.7;         // of the target error that the rays may take; interpolation has the rest
-constexpr double shooting_target = 0.002; // unshot share at which shooting ends
+constexpr double unshot_part = 0.2;       // of the target error that flux left unshot may take
 
 using State = Solution::State;
 
@@ -230,6 +231,10 @@ void restrict_sources(State& s) {
 }
 
 void settle(State& s) {
+    const double target = s.scene->solve.target_error;
+    if (s.status.message.empty() && s.status.estimated_error > 1.1 * target && s.scene->solve.solver == SolverKind::gathering)
+        s.status.message = fmt::format("estimated error {:.1f} %, above the target of {:.1f} %: {} rays a receiver are the limit set",
+                                       100 * s.status.estimated_error, 100 * target, s.status.rays_per_receiver);
     s.phase = SolvePhase::settled;
     s.status.stage = SolveStage::settled;
     s.status.settled = true;
@@ -390,20 +395,22 @@ void step_shoot(State& s, const std::atomic<bool>& cancel, bool one_shot) {
     s.status.stage = SolveStage::solving;
     const auto start = std::chrono::steady_clock::now();
     const std::uint64_t rays_before = s.shooting.rays();
+    // What is unshot would be reflected on and on: at most unshot / (1 - rho_ave) of the flux is missing.
+    const double absorbed = std::max(1e-3, 1 - s.shooting.mean_reflectance());
+    const double enough = unshot_part * s.scene->solve.target_error * absorbed;
     bool more = true;
     do {
         more = s.shooting.shoot();
-    } while (more && !one_shot && s.shooting.unshot_share() > shooting_target && !cancel.load(std::memory_order_relaxed) &&
+    } while (more && !one_shot && s.shooting.unshot_share() > enough && !cancel.load(std::memory_order_relaxed) &&
              s.shooting.luminaires_shot() == s.direct->emitter_count() &&
              std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < step_seconds);
     s.status.rays += s.shooting.rays() - rays_before;
     s.status.shots = s.shooting.shots();
     s.status.shooting_patch = s.shooting.last_shooter();
     s.status.unshot_share = s.shooting.unshot_share();
-    // What is unshot would be reflected on and on: at most unshot / (1 - rho_ave) of the flux is missing.
-    const double unsolved = s.status.unshot_share / std::max(1e-3, 1 - s.shooting.mean_reflectance());
+    const double unsolved = s.status.unshot_share / absorbed;
     s.status.estimated_error = std::min(1.0, std::hypot(unsolved, s.direct->misfit()));
-    if (!more || s.shooting.unshot_share() <= shooting_target) settle(s);
+    if (!more || s.shooting.unshot_share() <= enough) settle(s);
 }
 
 } // namespace

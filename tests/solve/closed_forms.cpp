@@ -88,7 +88,7 @@ TEST(IntegratingSphere, IndirectIrradianceIsUniform) {
 // Six walls of a unit cube, each with its own E and rho, ONE constant element a wall: B solves a 6 x 6 system with F_opposite and F_adjacent (Howell
 // C-11, C-14). Here the form factors are the kept rays of all vertices of a wall, and the system is solved by the program's own sweeps.
 // (The true radiosity is not constant over a wall: in these cubes the means of the continuous solution are up to 5.6 % away from the
-// 6 x 6 one, which is what one element a wall costs. MeansOfTheContinuousCube checks those against traced paths.)
+// 6 x 6 one, which is what one element a wall costs: tests/view, ContinuousCube.)
 // Order of walls: floor, ceiling, left, right, front, back. B at 20 digits from the 6 x 6 system.
 struct CubeCase {
     const char* name;
