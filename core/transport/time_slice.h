@@ -17,14 +17,20 @@ inline constexpr double step_seconds = 0.005;
 // past what is done. What is done does not depend on the time. True at the end.
 template <typename F>
 bool run_slice(std::uint32_t& cursor, std::uint32_t end, std::uint32_t block, const std::atomic<bool>& cancel, const F& f) {
+    const auto seconds_since = [](std::chrono::steady_clock::time_point then) {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
+    };
     const auto start = std::chrono::steady_clock::now();
+    std::uint64_t chunk = std::uint64_t(8) * block;
     while (cursor < end) {
         if (cancel.load(std::memory_order_relaxed)) return false;
-        const std::uint32_t last = static_cast<std::uint32_t>(std::min<std::uint64_t>(end, std::uint64_t(cursor) + 8 * block));
+        const auto chunk_start = std::chrono::steady_clock::now();
+        const std::uint32_t last = static_cast<std::uint32_t>(std::min<std::uint64_t>(end, cursor + chunk));
         tbb::parallel_for(tbb::blocked_range<std::uint32_t>(cursor, last, block),
                           [&](const tbb::blocked_range<std::uint32_t>& range) { f(range.begin(), range.end()); });
         cursor = last;
-        if (std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > step_seconds) break;
+        if (seconds_since(start) > step_seconds) break;
+        if (seconds_since(chunk_start) < 0.2 * step_seconds) chunk *= 2; // waking threads for less costs more than it gives
     }
     return cursor >= end;
 }
