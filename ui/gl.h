@@ -52,4 +52,11 @@ GlVertexArray new_vertex_array();
 std::expected<GlProgram, std::string> make_program(std::string_view defines, std::string_view vertex,
                                                    std::string_view geometry, std::string_view fragment);
 
+// Gives a buffer new contents.
+template <typename Vector>
+void fill(GLenum target, GLuint buffer, const Vector& values, GLenum usage) {
+    glBindBuffer(target, buffer);
+    glBufferData(target, static_cast<GLsizeiptr>(values.size() * sizeof(values[0])), values.data(), usage);
+}
+
 } // namespace lueur

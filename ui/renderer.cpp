@@ -233,6 +233,7 @@ void Renderer::draw_mesh(const RenderParams& params, double max_display) {
     const double aspect = static_cast<double>(params.width) / params.height;
     const auto range = depth_range(params.camera, bounds_);
     const glm::mat4 clip = clip_from_world(params.camera, aspect, range.near_plane, range.far_plane);
+    choose_seen(clip, glm::vec3(params.camera.position));
     const auto use = [&](GLuint program) { // what is the same for all batches
         glUseProgram(program);
         glUniformMatrix4fv(place(program, "clip_from_world"), 1, GL_FALSE, glm::value_ptr(clip));
@@ -256,6 +257,7 @@ void Renderer::draw_mesh(const RenderParams& params, double max_display) {
     glBindVertexArray(vertex_array_);
     GLuint program = 0;
     for (const auto& batch : batches_) {
+        if (batch.seen == 0) continue;
         const auto texture = batch.image && !(variant & of_unshot) ? textures_.find(batch.image) : textures_.end();
         const bool textured = texture != textures_.end();
         const GLuint wanted = mesh_programs_.at(textured ? variant | with_texture : variant);
@@ -265,9 +267,9 @@ void Renderer::draw_mesh(const RenderParams& params, double max_display) {
             const glm::vec3 mean = scene_->materials[at(batch.material)].texture->mean;
             glUniform3fv(place(program, "mean_rgb"), 1, glm::value_ptr(mean));
         }
-        glUniform1i(place(program, "first_element"), static_cast<GLint>(batch.first));
-        glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * batch.count), GL_UNSIGNED_INT,
-                       reinterpret_cast<const void*>(batch.first * sizeof(glm::uvec3)));
+        glUniform1i(place(program, "first_element"), static_cast<GLint>(batch.first_seen));
+        glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * batch.seen), GL_UNSIGNED_INT,
+                       reinterpret_cast<const void*>(batch.first_seen * sizeof(glm::uvec3)));
     }
     glBindVertexArray(0);
     glDisable(GL_CULL_FACE);

@@ -55,10 +55,13 @@ public:
 private:
     Renderer() = default;
 
+    static constexpr std::size_t elements_a_block = 64; // that are looked at as one when choosing what is seen
+
     struct Batch { // elements that share a texture
         const TextureImage* image = nullptr;
         MaterialIndex material{};
-        std::size_t first = 0, count = 0; // elements
+        std::size_t first = 0, count = 0;       // elements
+        std::size_t first_seen = 0, seen = 0;   // of those that may be seen from the camera, see choose_seen
     };
     struct Target {
         int width = 0, height = 0, samples = 0;
@@ -69,6 +72,7 @@ private:
     void upload_mesh(const Mesh& mesh, const Scene& scene);
     void upload_elements(const Mesh& mesh, const Scene& scene);
     void upload_field(const Field& field);
+    void choose_seen(const glm::mat4& clip_from_world, glm::vec3 eye);
     void make_target(int width, int height, int samples);
     void draw_mesh(const RenderParams& params, double max_display);
     void draw_display(const RenderParams& params, double max_display);
@@ -83,6 +87,10 @@ private:
     GlTexture coarse_texture_;
     std::map<const TextureImage*, GlTexture> textures_;
     std::vector<Batch> batches_;
+    // In drawing order: the elements, their patches, their planes (normal, offset), and spheres around each 64 of them (centre, radius).
+    std::vector<glm::uvec3> ordered_elements_;
+    std::vector<std::uint32_t> ordered_patches_;
+    std::vector<glm::vec4> planes_, spheres_;
     std::vector<std::shared_ptr<const TextureImage>> surface_images_; // of the batches, one a surface
     std::vector<MaterialIndex> surface_materials_;
     Target targets_[2]; // of one sample and of many

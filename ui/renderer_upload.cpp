@@ -5,15 +5,6 @@
 #include "ui/renderer.h"
 
 namespace lueur {
-namespace {
-
-template <typename Vector>
-void fill(GLenum target, GLuint buffer, const Vector& values, GLenum usage) {
-    glBindBuffer(target, buffer);
-    glBufferData(target, static_cast<GLsizeiptr>(values.size() * sizeof(values[0])), values.data(), usage);
-}
-
-} // namespace
 
 void Renderer::set_snapshot(const Snapshot& snapshot) {
     const bool new_mesh = snapshot.mesh != mesh_;
@@ -87,25 +78,36 @@ void Renderer::upload_elements(const Mesh& mesh, const Scene& scene) {
     std::iota(order.begin(), order.end(), 0u);
     std::ranges::stable_sort(order, {}, key);
 
-    std::vector<glm::uvec3> elements;
-    std::vector<std::uint32_t> coarse;
-    elements.reserve(order.size());
+    ordered_elements_.clear();
+    ordered_patches_.clear();
+    planes_.clear();
+    spheres_.clear();
     batches_.clear();
     std::size_t present = 0;
     for (const auto element : order) {
         if (batches_.empty() || key(element) != present) {
             present = key(element);
             const auto surface = mesh.element_surface[element];
-            batches_.push_back({surface_images_[surface].get(), surface_materials_[surface], elements.size(), 0});
+            batches_.push_back(
+                {surface_images_[surface].get(), surface_materials_[surface], ordered_elements_.size(), 0, 0, 0});
         }
         ++batches_.back().count;
-        elements.push_back(mesh.elements[element]);
-        coarse.push_back(mesh.coarse_patch[mesh.element_coarse[element]]);
+        ordered_elements_.push_back(mesh.elements[element]);
+        ordered_patches_.push_back(mesh.coarse_patch[mesh.element_coarse[element]]);
+        const auto corner = [&](int k) { return mesh.vertices[mesh.elements[element][k]].position; };
+        const glm::vec3 normal = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
+        planes_.emplace_back(normal, -glm::dot(normal, corner(0)));
     }
-    glBindVertexArray(vertex_array_);
-    fill(GL_ELEMENT_ARRAY_BUFFER, elements_, elements, GL_STATIC_DRAW);
-    glBindVertexArray(0);
-    fill(GL_TEXTURE_BUFFER, coarse_, coarse, GL_STATIC_DRAW);
+    for (std::size_t first = 0; first < ordered_elements_.size(); first += elements_a_block) {
+        const std::size_t last = std::min(first + elements_a_block, ordered_elements_.size());
+        glm::vec3 low(1e30f), high(-1e30f);
+        for (std::size_t e = first; e < last; ++e)
+            for (int k = 0; k < 3; ++k) {
+                const glm::vec3 p = mesh.vertices[ordered_elements_[e][k]].position;
+                low = glm::min(low, p), high = glm::max(high, p);
+            }
+        spheres_.emplace_back(0.5f * (low + high), 0.5f * glm::distance(low, high));
+    }
     glBindTexture(GL_TEXTURE_BUFFER, coarse_texture_);
     glTexBuffer(GL_TEXTURE_BUFFER, GL_R32UI, coarse_);
 

@@ -80,13 +80,8 @@ double emitting_area(const Scene& scene, const Luminaire& luminaire) {
     for (const ObjectIndex object : luminaire.objects)
         if (at(object) < emits.size()) emits[at(object)] = true;
     double area = 0;
-    for (std::size_t i = 0; i < geometry.triangles.size(); ++i) {
-        if (!emits[at(geometry.surfaces[at(geometry.triangle_surface[i])].object)]) continue;
-        const glm::uvec3& t = geometry.triangles[i];
-        const glm::dvec3 a(geometry.vertices[t.x].position), b(geometry.vertices[t.y].position),
-            c(geometry.vertices[t.z].position);
-        area += glm::length(glm::cross(b - a, c - a)) / 2;
-    }
+    for (std::size_t i = 0; i < geometry.surfaces.size(); ++i)
+        if (emits[at(geometry.surfaces[i].object)]) area += geometry.surface_area[i];
     switch (luminaire.side) {
     case EmitSide::front:
     case EmitSide::back:

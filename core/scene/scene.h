@@ -113,6 +113,7 @@ struct Geometry {
     std::vector<glm::uvec3> triangles; // counter-clockwise seen from the front
     std::vector<SurfaceIndex> triangle_surface;
     std::vector<Surface> surfaces;
+    std::vector<double> surface_area; // m^2, one a surface (one side)
     bool operator==(const Geometry&) const = default;
 };
 

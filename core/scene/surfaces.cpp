@@ -276,13 +276,24 @@ Geometry Builder::geometry() {
 
 } // namespace
 
+void measure_surfaces(Geometry& geometry) {
+    geometry.surface_area.assign(geometry.surfaces.size(), 0);
+    for (std::size_t t = 0; t < geometry.triangles.size(); ++t) {
+        const auto corner = [&](int k) { return glm::dvec3(geometry.vertices[geometry.triangles[t][k]].position); };
+        geometry.surface_area[at(geometry.triangle_surface[t])] +=
+            glm::length(glm::cross(corner(1) - corner(0), corner(2) - corner(0))) / 2;
+    }
+}
+
 Geometry make_geometry(const TriangleSoup& soup, const std::vector<Object>& objects,
                        std::vector<std::string>& warnings) {
     Builder builder{soup, 0, {}, {}, {}, {}, {}};
     builder.keep_sound_triangles(objects, warnings);
     builder.find_neighbours();
     builder.grow_planes();
-    return builder.geometry();
+    Geometry geometry = builder.geometry();
+    measure_surfaces(geometry);
+    return geometry;
 }
 
 } // namespace lueur

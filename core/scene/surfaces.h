@@ -21,4 +21,7 @@ struct TriangleSoup {
 Geometry make_geometry(const TriangleSoup& soup, const std::vector<Object>& objects,
                        std::vector<std::string>& warnings);
 
+// Fills Geometry::surface_area from its triangles; make_geometry has done it.
+void measure_surfaces(Geometry& geometry);
+
 } // namespace lueur

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double residual_target = 2e-4;  // |r| / |b|, worst channel
 constexpr std::uint32_t most_sweeps = 400; // a system that needs more does not converge
-constexpr std::uint32_t fine_vertices = 25000; // that direct light may add: the window has to draw them
+constexpr std::uint32_t fine_vertices = 20000; // that direct light may add: the window has to draw them
 constexpr double receiver_cell = 0.3;      // of the coarse element size
 constexpr double ray_share = 0.7;         // of the target error that the rays may take; interpolation has the rest
 constexpr double unshot_part = 0.2;       // of the target error that flux left unshot may take

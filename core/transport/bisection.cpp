@@ -111,12 +111,23 @@ void list_leaves(Mesh& mesh) {
     mesh.element_coarse.clear();
     mesh.element_surface.clear();
     mesh.element_back.clear();
-    for (const MeshNode& node : mesh.nodes) {
-        if (node.children != no_index) continue;
-        mesh.elements.push_back(node.vertices);
-        mesh.element_coarse.push_back(node.coarse);
-        mesh.element_surface.push_back(mesh.coarse_surface[node.coarse]);
-        mesh.element_back.push_back(mesh.coarse_back[node.coarse]);
+    // Depth first, so that neighbours in space are neighbours in the list.
+    std::vector<std::uint32_t> path;
+    for (std::uint32_t coarse = 0; coarse < mesh.coarse_element_count; ++coarse) {
+        path.push_back(coarse);
+        while (!path.empty()) {
+            const MeshNode& node = mesh.nodes[path.back()];
+            path.pop_back();
+            if (node.children != no_index) {
+                path.push_back(node.children + 1);
+                path.push_back(node.children);
+                continue;
+            }
+            mesh.elements.push_back(node.vertices);
+            mesh.element_coarse.push_back(node.coarse);
+            mesh.element_surface.push_back(mesh.coarse_surface[node.coarse]);
+            mesh.element_back.push_back(mesh.coarse_back[node.coarse]);
+        }
     }
 }
 

@@ -81,17 +81,21 @@ void add_surface_triangles(const Scene& scene, Mesh& mesh) {
     }
 }
 
+// Elements get edges of at most `size`; thin ones (a skirting board, a slat), whose area is small anyway, of at most three times that.
 void refine_to_size(Mesh& mesh, float size) {
     Bisection bisection(mesh);
     const float limit = size * size;
-    for (std::uint32_t n = 0; n < mesh.nodes.size(); ++n) { // grows while it runs: children are looked at in their turn
-        while (mesh.nodes[n].children == no_index) {
-            const int edge = bisection.longest_edge(n);
-            const glm::uvec3 v = mesh.nodes[n].vertices;
-            if (bisection.edge_length(v[edge], v[(edge + 1) % 3]) <= limit) break;
-            bisection.split(n);
-        }
-    }
+    const auto too_large = [&](std::uint32_t n) {
+        const int edge = bisection.longest_edge(n);
+        const glm::uvec3 v = mesh.nodes[n].vertices;
+        const float longest = bisection.edge_length(v[edge], v[(edge + 1) % 3]);
+        const glm::vec3 a = mesh.vertices[v.x].position;
+        const float twice_area = glm::length(
+            glm::cross(mesh.vertices[v.y].position - a, mesh.vertices[v.z].position - a));
+        return longest > 9 * limit || (longest > limit && twice_area > 0.5f * limit);
+    };
+    for (std::uint32_t n = 0; n < mesh.nodes.size(); ++n) // grows while it runs: children are looked at in their turn
+        while (mesh.nodes[n].children == no_index && too_large(n)) bisection.split(n);
 }
 
 // The coarsest ancestor of each node whose edges are at most `patch_size` long (or the node itself), by node number.
@@ -113,20 +117,31 @@ std::vector<std::uint32_t> patch_roots(const Mesh& mesh, const Bisection& bisect
 
 // Leaves become the coarse elements; of what they were cut from only the patches are remembered.
 void make_leaves_coarse(Mesh& mesh, float patch_size) {
+    const std::uint32_t triangles = static_cast<std::uint32_t>(mesh.coarse_surface.size()); // the first nodes are those of the scene
     const std::vector<std::uint32_t> root = patch_roots(mesh, Bisection(mesh), patch_size);
     std::vector<std::uint32_t> patch_of_root(mesh.nodes.size(), no_index);
     std::vector<MeshNode> leaves;
     std::vector<std::uint32_t> surface;
-    for (std::uint32_t n = 0; n < mesh.nodes.size(); ++n) {
-        const MeshNode& node = mesh.nodes[n];
-        if (node.children != no_index) continue;
-        if (patch_of_root[root[n]] == no_index) {
-            patch_of_root[root[n]] = static_cast<std::uint32_t>(mesh.patches.size());
-            mesh.patches.push_back(mesh.nodes[root[n]].vertices);
+    std::vector<std::uint32_t> path;
+    for (std::uint32_t start = 0; start < triangles; ++start) { // depth first: neighbours in space are neighbours in number
+        path.push_back(start);
+        while (!path.empty()) {
+            const std::uint32_t n = path.back();
+            const MeshNode& node = mesh.nodes[n];
+            path.pop_back();
+            if (node.children != no_index) {
+                path.push_back(node.children + 1);
+                path.push_back(node.children);
+                continue;
+            }
+            if (patch_of_root[root[n]] == no_index) {
+                patch_of_root[root[n]] = static_cast<std::uint32_t>(mesh.patches.size());
+                mesh.patches.push_back(mesh.nodes[root[n]].vertices);
+            }
+            mesh.coarse_patch.push_back(patch_of_root[root[n]]);
+            surface.push_back(mesh.coarse_surface[node.coarse]);
+            leaves.push_back({node.vertices, static_cast<std::uint32_t>(leaves.size())});
         }
-        mesh.coarse_patch.push_back(patch_of_root[root[n]]);
-        surface.push_back(mesh.coarse_surface[node.coarse]);
-        leaves.push_back({node.vertices, static_cast<std::uint32_t>(leaves.size())});
     }
     mesh.nodes = std::move(leaves);
     mesh.coarse_surface = std::move(surface);

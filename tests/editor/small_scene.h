@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "core/scene/surfaces.h"
 #include "core/scene/scene.h"
 
 namespace lueur {
@@ -28,6 +29,7 @@ inline Scene small_scene() {
         geometry.triangle_surface.push_back(SurfaceIndex(object));
         geometry.surfaces.push_back({ObjectIndex(object), true});
     }
+    measure_surfaces(geometry);
     scene.geometry = std::make_shared<const Geometry>(std::move(geometry));
     return scene;
 }
