@@ -233,7 +233,8 @@ void Renderer::draw_mesh(const RenderParams& params, double max_display) {
     const double aspect = static_cast<double>(params.width) / params.height;
     const auto range = depth_range(params.camera, bounds_);
     const glm::mat4 clip = clip_from_world(params.camera, aspect, range.near_plane, range.far_plane);
-    choose_seen(clip, glm::vec3(params.camera.position));
+    const double pixel = glm::radians(params.camera.vertical_fov_degrees) / target_->height; // rad
+    choose_seen(clip, glm::vec3(params.camera.position), params.still ? 0.0f : static_cast<float>(0.5 * pixel));
     const auto use = [&](GLuint program) { // what is the same for all batches
         glUseProgram(program);
         glUniformMatrix4fv(place(program, "clip_from_world"), 1, GL_FALSE, glm::value_ptr(clip));

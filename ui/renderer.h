@@ -72,7 +72,7 @@ private:
     void upload_mesh(const Mesh& mesh, const Scene& scene);
     void upload_elements(const Mesh& mesh, const Scene& scene);
     void upload_field(const Field& field);
-    void choose_seen(const glm::mat4& clip_from_world, glm::vec3 eye);
+    void choose_seen(const glm::mat4& clip_from_world, glm::vec3 eye, float smallest); // smallest: an edge's angle, rad
     void make_target(int width, int height, int samples);
     void draw_mesh(const RenderParams& params, double max_display);
     void draw_display(const RenderParams& params, double max_display);

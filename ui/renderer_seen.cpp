@@ -1,5 +1,5 @@
-// Which elements a camera may see. Setting up triangles is most of a software renderer's frame, so what turns its back or lies outside
-// of the picture is left out before.
+// Which elements a camera may see. Setting up triangles is most of a software renderer's frame, so what turns its back, lies outside
+// of the picture or (while things move) is smaller than half a pixel is left out before.
 #include <algorithm>
 #include <array>
 
@@ -9,7 +9,7 @@
 
 namespace lueur {
 
-void Renderer::choose_seen(const glm::mat4& clip_from_world, glm::vec3 eye) {
+void Renderer::choose_seen(const glm::mat4& clip_from_world, glm::vec3 eye, float smallest) {
     std::array<glm::vec4, 5> sides; // left, right, bottom, top, near; positive inside (Gribb & Hartmann 2001)
     for (int k = 0; k < 5; ++k) {
         const glm::vec4 row = glm::row(clip_from_world, k / 2);
@@ -30,8 +30,12 @@ void Renderer::choose_seen(const glm::mat4& clip_from_world, glm::vec3 eye) {
             const glm::vec4 centre(glm::vec3(spheres_[block]), 1);
             const bool outside = std::ranges::any_of(
                 sides, [&](const glm::vec4& side) { return glm::dot(side, centre) < -spheres_[block].w; });
+            const float nearest = std::max(0.0f, glm::distance(eye, glm::vec3(spheres_[block])) - spheres_[block].w);
+            const float length = smallest * nearest; // that is seen under the smallest angle
             for (; e < last; ++e) {
                 if (outside || glm::dot(planes_[e], from) <= 0) continue;
+                const glm::vec3 twice_area(planes_[e]);
+                if (glm::dot(twice_area, twice_area) < length * length * length * length) continue;
                 elements.push_back(ordered_elements_[e]);
                 patches.push_back(ordered_patches_[e]);
             }
