@@ -23,8 +23,8 @@ public:
     const std::filesystem::path& file() const { return file_; }
     bool modified() const; // since it was opened or saved; where the camera stands does not count
 
-    // Applies the edit and returns the first stale stage, or the reason why it was refused. Camera edits change the scene but not undo:
-    // undo and redo leave the camera where it is, unless they bring back another scene.
+    // Applies the edit and returns the first stale stage, or the reason why it was refused. Camera edits change the
+    // scene but not undo: undo and redo leave the camera where it is, unless they bring back another scene.
     std::expected<Stage, std::string> apply(const Edit& edit);
     void end_drag(); // the next edit starts a new step of undo
 
@@ -36,7 +36,8 @@ public:
     Stage redo();
 
     // Opens a file; on errors the document keeps the scene it had. Warnings are appended to `warnings`.
-    std::expected<void, std::vector<std::string>> open(const std::filesystem::path& file, std::vector<std::string>& warnings);
+    std::expected<void, std::vector<std::string>> open(const std::filesystem::path& file,
+                                                       std::vector<std::string>& warnings);
     std::expected<void, std::string> save(const std::filesystem::path& file);
 
 private:

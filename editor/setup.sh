@@ -11,7 +11,7 @@ build_packages=(
     libglfw3-dev libepoxy-dev libimgui-dev libstb-dev
     libgl1-mesa-dri fonts-inter
 )
-test_packages=(libgtest-dev libgmock-dev xvfb xauth xdotool python3)
+test_packages=(clang-format libgtest-dev libgmock-dev xvfb xauth xdotool python3)
 
 say() { printf '%s\n' "$*" >&2; }
 

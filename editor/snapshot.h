@@ -22,7 +22,7 @@ struct Snapshot {
     std::uint64_t revision = 0;          // grows with each publication
     std::uint64_t document_revision = 0; // of the document it belongs to
     std::shared_ptr<const Scene> scene;
-    std::shared_ptr<const Mesh> mesh;    // null before the first mesh; the same pointer while it has not changed
+    std::shared_ptr<const Mesh> mesh; // null before the first mesh; the same pointer while it has not changed
     std::shared_ptr<const World> world;
     std::shared_ptr<const Field> field;
     SolveStatus status;

@@ -27,12 +27,16 @@ constexpr std::size_t most_history = 2000; // points of the convergence plot; th
 SolveFrom solve_from(Stage stage) {
     switch (stage) {
     case Stage::mesh:
-    case Stage::transport: return SolveFrom::mesh;
-    case Stage::sources: return SolveFrom::sources;
-    case Stage::reflectance: return SolveFrom::reflectance;
+    case Stage::transport:
+        return SolveFrom::mesh;
+    case Stage::sources:
+        return SolveFrom::sources;
+    case Stage::reflectance:
+        return SolveFrom::reflectance;
     case Stage::view:
     case Stage::display:
-    case Stage::nothing: return SolveFrom::nothing;
+    case Stage::nothing:
+        return SolveFrom::nothing;
     }
     return SolveFrom::mesh;
 }
@@ -42,7 +46,8 @@ int worker_threads(int wanted) {
     return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1);
 }
 
-// The hand that drags comes before the light that travels: the window's threads get the processor first when they want it.
+// The hand that drags comes before the light that travels: the window's threads get the processor first when they want
+// it.
 void lower_priority_of_this_thread() {
 #ifdef __linux__
     setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 10); // on Linux a thread's own; refused is no harm
@@ -52,7 +57,9 @@ void lower_priority_of_this_thread() {
 } // namespace
 
 struct Worker::State {
-    explicit State(WorkerParams p) : params(std::move(p)), arena(worker_threads(params.threads)) {}
+    explicit State(WorkerParams p)
+        : params(std::move(p))
+        , arena(worker_threads(params.threads)) {}
 
     const WorkerParams params;
     tbb::task_arena arena;
@@ -105,8 +112,10 @@ void Worker::State::take_requests(std::unique_lock<std::mutex>& lock) {
     if (scene) document_revision = pending_revision;
     cancel.store(false);
     lock.unlock();
-    if (scene && !solution) solution = std::make_unique<Solution>(scene);
-    else if (scene) solution->update(scene, solve_from(stage));
+    if (scene && !solution)
+        solution = std::make_unique<Solution>(scene);
+    else if (scene)
+        solution->update(scene, solve_from(stage));
     if (from_black && solution) solution->update(solution->scene(), SolveFrom::black);
     if (from_black || solve_from(stage) != SolveFrom::nothing) history.clear();
     lock.lock();
@@ -168,9 +177,9 @@ void Worker::State::run() {
         do {
             solution->step(cancel, single);
             // A single step shows something new: a sweep, a shot or the end of a stage.
-        } while (single && !cancel.load() && !solution->status().settled && solution->status().stage != SolveStage::failed &&
-                 solution->status().sweeps == sweeps && solution->status().shots == shots &&
-                 solution->status().stage == stage_before);
+        } while (single && !cancel.load() && !solution->status().settled &&
+                 solution->status().stage != SolveStage::failed && solution->status().sweeps == sweeps &&
+                 solution->status().shots == shots && solution->status().stage == stage_before);
         note_history();
         unpublished = true;
         const double since = std::chrono::duration<double>(Clock::now() - last_publication).count();
@@ -184,7 +193,8 @@ void Worker::State::run() {
     }
 }
 
-Worker::Worker(WorkerParams params) : state_(std::make_unique<State>(std::move(params))) {
+Worker::Worker(WorkerParams params)
+    : state_(std::make_unique<State>(std::move(params))) {
     state_->thread = std::thread([state = state_.get()] { state->arena.execute([state] { state->run(); }); });
 }
 

@@ -1,7 +1,8 @@
 // The thread that solves. It owns the solution; everybody else sees immutable snapshots.
 //
-// Threads: every member may be called from any thread. submit() never waits for the solver: it cancels what the edit made stale (within
-// one small step, <= 10 ms) and returns. When the target error is met the worker sleeps and uses no CPU.
+// Threads: every member may be called from any thread. submit() never waits for the solver: it cancels what the edit
+// made stale (within one small step, <= 10 ms) and returns. When the target error is met the worker sleeps and uses no
+// CPU.
 #pragma once
 
 #include <functional>
@@ -13,9 +14,9 @@
 namespace lueur {
 
 struct WorkerParams {
-    int threads = 0;                      // 0: one fewer than the machine has, at least one (the window keeps one)
-    double publish_interval = 1.0 / 30;   // seconds between snapshots while solving
-    std::function<void()> wake;           // called after each publication, from the worker's thread (glfwPostEmptyEvent)
+    int threads = 0;                    // 0: one fewer than the machine has, at least one (the window keeps one)
+    double publish_interval = 1.0 / 30; // seconds between snapshots while solving
+    std::function<void()> wake;         // called after each publication, from the worker's thread (glfwPostEmptyEvent)
 };
 
 class Worker {
@@ -25,7 +26,8 @@ public:
     Worker(const Worker&) = delete;
     Worker& operator=(const Worker&) = delete;
 
-    // The scene changed; everything from `stale` on is to be done again. Several submissions before the worker looks are merged.
+    // The scene changed; everything from `stale` on is to be done again. Several submissions before the worker looks
+    // are merged.
     void submit(std::shared_ptr<const Scene> scene, std::uint64_t document_revision, Stage stale);
 
     void set_paused(bool paused);

@@ -60,8 +60,8 @@ private:
     struct Batch { // elements that share a texture
         const TextureImage* image = nullptr;
         MaterialIndex material{};
-        std::size_t first = 0, count = 0;       // elements
-        std::size_t first_seen = 0, seen = 0;   // of those that may be seen from the camera, see choose_seen
+        std::size_t first = 0, count = 0;     // elements
+        std::size_t first_seen = 0, seen = 0; // of those that may be seen from the camera, see choose_seen
     };
     struct Target {
         int width = 0, height = 0, samples = 0;
@@ -87,7 +87,8 @@ private:
     GlTexture coarse_texture_;
     std::map<const TextureImage*, GlTexture> textures_;
     std::vector<Batch> batches_;
-    // In drawing order: the elements, their patches, their planes (normal, offset), and spheres around each 64 of them (centre, radius).
+    // In drawing order: the elements, their patches, their planes (normal, offset), and spheres around each 64 of them
+    // (centre, radius).
     std::vector<glm::uvec3> ordered_elements_;
     std::vector<std::uint32_t> ordered_patches_;
     std::vector<glm::vec4> planes_, spheres_;

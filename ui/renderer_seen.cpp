@@ -1,5 +1,5 @@
-// Which elements a camera may see. Setting up triangles is most of a software renderer's frame, so what turns its back, lies outside
-// of the picture or (while things move) is smaller than half a pixel is left out before.
+// Which elements a camera may see. Setting up triangles is most of a software renderer's frame, so what turns its back,
+// lies outside of the picture or (while things move) is smaller than half a pixel is left out before.
 #include <algorithm>
 #include <array>
 

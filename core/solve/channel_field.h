@@ -16,7 +16,9 @@ struct ChannelField {
 
     ChannelField() = default;
     ChannelField(std::uint32_t n, int channels)
-        : count(n), stride((channels + 7) / 8 * 8), values(std::size_t(n) * ((channels + 7) / 8 * 8), 0.0f) {}
+        : count(n)
+        , stride((channels + 7) / 8 * 8)
+        , values(std::size_t(n) * ((channels + 7) / 8 * 8), 0.0f) {}
 
     float* operator[](std::uint32_t i) { return values.data() + std::size_t(i) * stride; }
     const float* operator[](std::uint32_t i) const { return values.data() + std::size_t(i) * stride; }

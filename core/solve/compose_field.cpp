@@ -61,11 +61,14 @@ std::shared_ptr<const Field> compose_field(const Solution::State& s) {
         tbb::parallel_for(Range(0, coarse, 256), [&](const Range& range) {
             std::array<float, max_channels> h{};
             for (std::uint32_t i = range.begin(); i < range.end(); ++i) {
-                for (int k = 0; k < s.wavelengths.size(); ++k) h[k] = indirect[i][k] + (ambient.empty() ? 0 : ambient[k]);
+                for (int k = 0; k < s.wavelengths.size(); ++k)
+                    h[k] = indirect[i][k] + (ambient.empty() ? 0 : ambient[k]);
                 field->irradiance_xyz[i] = weigh(irradiance, h.data());
                 field->reflected_xyz[i] = weigh(reflected[s.material_of(mesh.vertices[i].surface)], h.data());
-                if (!unshot.empty()) field->unshot[i] = unshot[i];
-                else field->unshot[i] = std::abs(weigh(irradiance, s.system.residual()[s.receivers.of_vertex[i]]).y);
+                if (!unshot.empty())
+                    field->unshot[i] = unshot[i];
+                else
+                    field->unshot[i] = std::abs(weigh(irradiance, s.system.residual()[s.receivers.of_vertex[i]]).y);
             }
         });
         std::vector<glm::uvec3> coarse_elements;
@@ -88,7 +91,8 @@ std::shared_ptr<const Field> compose_field(const Solution::State& s) {
         if (!s.luminaire_is_lit(l)) continue;
         const std::vector<float> exitance(s.luminaire_exitance[l].begin(), s.luminaire_exitance[l].end());
         emitter_xyz[l] = weigh(irradiance, exitance.data());
-        for (std::size_t m = 0; m < reflected.size(); ++m) emitter_on_material[m][l] = weigh(reflected[m], exitance.data());
+        for (std::size_t m = 0; m < reflected.size(); ++m)
+            emitter_on_material[m][l] = weigh(reflected[m], exitance.data());
     }
     tbb::parallel_for(Range(0, count, 512), [&](const Range& range) {
         for (std::uint32_t v = range.begin(); v < range.end(); ++v) {

@@ -14,19 +14,21 @@ namespace {
 using Sums = std::array<double, max_channels>;
 constexpr std::uint32_t grain = 256;
 
-// Where the machine has 256-bit vectors they are used: chosen once when the program starts. (ThreadSanitizer cannot run such choices.)
+// Where the machine has 256-bit vectors they are used: chosen once when the program starts. (ThreadSanitizer cannot run
+// such choices.)
 #if defined(__x86_64__) && !defined(__SANITIZE_THREAD__)
 #define LUEUR_BEST_VECTORS __attribute__((target_clones("arch=x86-64-v3", "default")))
 #else
 #define LUEUR_BEST_VECTORS
 #endif
 
-// Eight channels as one register (two, without 256-bit vectors). Written out, for the compiler would sum channel by channel in memory.
+// Eight channels as one register (two, without 256-bit vectors). Written out, for the compiler would sum channel by
+// channel in memory.
 using Lanes [[gnu::vector_size(32), gnu::aligned(4), gnu::may_alias]] = float;
 
 template <int Stride>
-[[gnu::always_inline]] inline void apply_receiver(std::span<const GatherPass> passes, RayEnds which, const ChannelField& field,
-                                                  std::uint32_t i, float* out) {
+[[gnu::always_inline]] inline void apply_receiver(std::span<const GatherPass> passes, RayEnds which,
+                                                  const ChannelField& field, std::uint32_t i, float* out) {
     constexpr int registers = Stride / 8;
     Lanes sum[registers] = {};
     for (const GatherPass& pass : passes) {
@@ -41,19 +43,28 @@ template <int Stride>
     for (int c = 0; c < registers; ++c) reinterpret_cast<Lanes*>(out)[c] = sum[c] * share;
 }
 
-LUEUR_BEST_VECTORS void apply_receivers(std::span<const GatherPass> passes, RayEnds ends, const ChannelField& field, std::uint32_t first,
-                                        std::uint32_t last, ChannelField& out) {
+LUEUR_BEST_VECTORS void apply_receivers(std::span<const GatherPass> passes, RayEnds ends, const ChannelField& field,
+                                        std::uint32_t first, std::uint32_t last, ChannelField& out) {
     for (std::uint32_t i = first; i < last; ++i) {
         switch (field.stride) {
-        case 8: apply_receiver<8>(passes, ends, field, i, out[i]); break;
-        case 16: apply_receiver<16>(passes, ends, field, i, out[i]); break;
-        case 24: apply_receiver<24>(passes, ends, field, i, out[i]); break;
-        default: apply_receiver<32>(passes, ends, field, i, out[i]); break;
+        case 8:
+            apply_receiver<8>(passes, ends, field, i, out[i]);
+            break;
+        case 16:
+            apply_receiver<16>(passes, ends, field, i, out[i]);
+            break;
+        case 24:
+            apply_receiver<24>(passes, ends, field, i, out[i]);
+            break;
+        default:
+            apply_receiver<32>(passes, ends, field, i, out[i]);
+            break;
         }
     }
 }
 
-// sum_i weight_i f(i, c) for all channels; the split into blocks is fixed so that the sum does not depend on the threads.
+// sum_i weight_i f(i, c) for all channels; the split into blocks is fixed so that the sum does not depend on the
+// threads.
 template <typename F>
 Sums weighted_sums(std::uint32_t n, int channels, const std::vector<float>& weight, const F& f) {
     return tbb::parallel_deterministic_reduce(
@@ -71,9 +82,10 @@ Sums weighted_sums(std::uint32_t n, int channels, const std::vector<float>& weig
 
 template <typename F>
 void for_each_vertex(std::uint32_t n, const F& f) {
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, n, grain), [&](const tbb::blocked_range<std::uint32_t>& range) {
-        for (std::uint32_t i = range.begin(); i < range.end(); ++i) f(i);
-    });
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, n, grain),
+                      [&](const tbb::blocked_range<std::uint32_t>& range) {
+                          for (std::uint32_t i = range.begin(); i < range.end(); ++i) f(i);
+                      });
 }
 
 } // namespace
@@ -93,8 +105,14 @@ bool apply_rows(std::span<const GatherPass> passes, RayEnds ends, const ChannelF
 }
 
 GatherSystem::GatherSystem(std::uint32_t vertices, int channels, std::vector<float> weight)
-    : n_(vertices), channels_(channels), weight_(std::move(weight)), rho_(vertices, channels), b_(vertices, channels),
-      x_(vertices + 1, channels), h_(vertices, channels), r_(vertices, channels) {}
+    : n_(vertices)
+    , channels_(channels)
+    , weight_(std::move(weight))
+    , rho_(vertices, channels)
+    , b_(vertices, channels)
+    , x_(vertices + 1, channels)
+    , h_(vertices, channels)
+    , r_(vertices, channels) {}
 
 void GatherSystem::set_sources(const ChannelField& rho, const ChannelField& gathered) {
     rho_ = rho;
@@ -103,9 +121,11 @@ void GatherSystem::set_sources(const ChannelField& rho, const ChannelField& gath
     });
     // The guess alpha x with the smallest |b - alpha A x|: one lamp dimmed or recoloured is then solved at once.
     const auto ax = [&](std::uint32_t i, int c) { return double(x_[i][c]) - double(rho_[i][c]) * h_[i][c]; };
-    b_norm2_ = weighted_sums(n_, channels_, weight_, [&](std::uint32_t i, int c) { return double(b_[i][c]) * b_[i][c]; });
+    b_norm2_ =
+        weighted_sums(n_, channels_, weight_, [&](std::uint32_t i, int c) { return double(b_[i][c]) * b_[i][c]; });
     const Sums bax = weighted_sums(n_, channels_, weight_, [&](std::uint32_t i, int c) { return b_[i][c] * ax(i, c); });
-    const Sums axax = weighted_sums(n_, channels_, weight_, [&](std::uint32_t i, int c) { return ax(i, c) * ax(i, c); });
+    const Sums axax =
+        weighted_sums(n_, channels_, weight_, [&](std::uint32_t i, int c) { return ax(i, c) * ax(i, c); });
     std::array<float, max_channels> alpha{};
     for (int c = 0; c < channels_; ++c) {
         const double a = axax[c] > 0 ? bax[c] / axax[c] : 0;
@@ -135,7 +155,8 @@ void GatherSystem::refresh_residual() {
     for_each_vertex(n_, [&](std::uint32_t i) {
         for (int c = 0; c < channels_; ++c) r_[i][c] = b_[i][c] - x_[i][c] + rho_[i][c] * h_[i][c];
     });
-    r_norm2_ = weighted_sums(n_, channels_, weight_, [&](std::uint32_t i, int c) { return double(r_[i][c]) * r_[i][c]; });
+    r_norm2_ =
+        weighted_sums(n_, channels_, weight_, [&](std::uint32_t i, int c) { return double(r_[i][c]) * r_[i][c]; });
 }
 
 double GatherSystem::relative_residual() const {
@@ -150,12 +171,16 @@ bool GatherSystem::sweep(const std::vector<GatherPass>& passes, const std::atomi
     std::copy(r_.values.begin(), r_.values.end(), next.p.values.begin());
     if (!apply_rows(passes, RayEnds::coarse, next.p, next.wp, cancel)) return false;
 
-    const auto times_a = [&](const Direction& d, std::uint32_t i, int c) { return d.p[i][c] - rho_[i][c] * d.wp[i][c]; };
+    const auto times_a = [&](const Direction& d, std::uint32_t i, int c) {
+        return d.p[i][c] - rho_[i][c] * d.wp[i][c];
+    };
     for (const Direction& old : directions_) { // make A p orthogonal to the kept ones
-        const Sums product = weighted_sums(
-            n_, channels_, weight_, [&](std::uint32_t i, int c) { return double(times_a(next, i, c)) * times_a(old, i, c); });
+        const Sums product = weighted_sums(n_, channels_, weight_, [&](std::uint32_t i, int c) {
+            return double(times_a(next, i, c)) * times_a(old, i, c);
+        });
         std::array<float, max_channels> beta{};
-        for (int c = 0; c < channels_; ++c) beta[c] = old.norm2[c] > 0 ? static_cast<float>(product[c] / old.norm2[c]) : 0.0f;
+        for (int c = 0; c < channels_; ++c)
+            beta[c] = old.norm2[c] > 0 ? static_cast<float>(product[c] / old.norm2[c]) : 0.0f;
         for_each_vertex(n_, [&](std::uint32_t i) {
             for (int c = 0; c < channels_; ++c) {
                 next.p[i][c] -= beta[c] * old.p[i][c];
@@ -170,7 +195,8 @@ bool GatherSystem::sweep(const std::vector<GatherPass>& passes, const std::atomi
     const Sums product = weighted_sums(n_, channels_, weight_,
                                        [&](std::uint32_t i, int c) { return double(r_[i][c]) * times_a(next, i, c); });
     std::array<float, max_channels> alpha{};
-    for (int c = 0; c < channels_; ++c) alpha[c] = next.norm2[c] > 0 ? static_cast<float>(product[c] / next.norm2[c]) : 0.0f;
+    for (int c = 0; c < channels_; ++c)
+        alpha[c] = next.norm2[c] > 0 ? static_cast<float>(product[c] / next.norm2[c]) : 0.0f;
     for_each_vertex(n_, [&](std::uint32_t i) {
         for (int c = 0; c < channels_; ++c) {
             x_[i][c] += alpha[c] * next.p[i][c];
@@ -178,7 +204,8 @@ bool GatherSystem::sweep(const std::vector<GatherPass>& passes, const std::atomi
             r_[i][c] -= alpha[c] * times_a(next, i, c);
         }
     });
-    r_norm2_ = weighted_sums(n_, channels_, weight_, [&](std::uint32_t i, int c) { return double(r_[i][c]) * r_[i][c]; });
+    r_norm2_ =
+        weighted_sums(n_, channels_, weight_, [&](std::uint32_t i, int c) { return double(r_[i][c]) * r_[i][c]; });
     for (int c = 0; c < channels_; ++c) diverged_ = diverged_ || !std::isfinite(r_norm2_[c]);
     if (directions_.size() == kept_directions) directions_.erase(directions_.begin());
     directions_.push_back(std::move(next));

@@ -1,10 +1,11 @@
 // The gathered system (I - rho W) U = rho G, solved for all channels at once on kept rows.
 //
-// G: irradiance after one reflection of direct light, gathered from the fine vertices where direct light is kept. U: the part of the
-// radiosity that indirect light is reflected into, at the coarse vertices, W m^-2 nm^-1. W: gather_rows.h. H = G + W U is the indirect irradiance.
-// Method: generalised conjugate residuals, truncated (Eisenstat, Elman & Schultz 1983, Orthomin(k)): one application of W a sweep, and the
-// residual of no channel ever grows. W by random rays is not symmetric, so conjugate gradients are not available; plain Jacobi
-// sweeps need ln(eps)/ln(rho) of them. Each channel is its own system: the coefficients are per channel.
+// G: irradiance after one reflection of direct light, gathered from the fine vertices where direct light is kept. U:
+// the part of the radiosity that indirect light is reflected into, at the coarse vertices, W m^-2 nm^-1. W:
+// gather_rows.h. H = G + W U is the indirect irradiance. Method: generalised conjugate residuals, truncated (Eisenstat,
+// Elman & Schultz 1983, Orthomin(k)): one application of W a sweep, and the residual of no channel ever grows. W by
+// random rays is not symmetric, so conjugate gradients are not available; plain Jacobi sweeps need ln(eps)/ln(rho) of
+// them. Each channel is its own system: the coefficients are per channel.
 #pragma once
 
 #include <array>
@@ -17,8 +18,8 @@
 
 namespace lueur {
 
-// out_i = mean over all rays of all passes of field[end of ray]. `field` has one more row than vertices, which is zero: the outside.
-// False (and out undefined) when cancelled.
+// out_i = mean over all rays of all passes of field[end of ray]. `field` has one more row than vertices, which is zero:
+// the outside. False (and out undefined) when cancelled.
 enum class RayEnds { coarse, fine };
 bool apply_rows(std::span<const GatherPass> passes, RayEnds ends, const ChannelField& field, ChannelField& out,
                 const std::atomic<bool>& cancel);
@@ -29,20 +30,21 @@ public:
     // weight: of each vertex in norms, its area; rho: n rows.
     GatherSystem(std::uint32_t vertices, int channels, std::vector<float> weight);
 
-    // A new right side (rho * G) and reflectance; keeps the solution so far as the first guess, scaled in each channel so that
-    // its residual is smallest. Needs no ray and no application of W.
+    // A new right side (rho * G) and reflectance; keeps the solution so far as the first guess, scaled in each channel
+    // so that its residual is smallest. Needs no ray and no application of W.
     void set_sources(const ChannelField& rho, const ChannelField& gathered);
-    void set_rows(const std::vector<GatherPass>& passes);   // other rays: W U anew
-    void clear(); // U = 0
+    void set_rows(const std::vector<GatherPass>& passes); // other rays: W U anew
+    void clear();                                         // U = 0
 
-    bool sweep(const std::vector<GatherPass>& passes, const std::atomic<bool>& cancel); // false when cancelled (nothing changed)
+    bool sweep(const std::vector<GatherPass>& passes,
+               const std::atomic<bool>& cancel); // false when cancelled (nothing changed)
 
     double relative_residual() const; // worst channel: |r| / |b|, area-weighted 2-norms; 0 for a channel without light
     bool diverged() const { return diverged_; }
 
-    const ChannelField& radiosity() const { return x_; }   // U; n + 1 rows, the last zero
-    const ChannelField& gathered() const { return h_; }    // W U
-    const ChannelField& residual() const { return r_; }    // unshot radiosity
+    const ChannelField& radiosity() const { return x_; } // U; n + 1 rows, the last zero
+    const ChannelField& gathered() const { return h_; }  // W U
+    const ChannelField& residual() const { return r_; }  // unshot radiosity
 
 private:
     void refresh_residual();

@@ -17,7 +17,8 @@ constexpr int grey_sweeps = 8; // 0.5^8: far below what the rays can tell
 double pass_mean(const GatherPass& pass, std::uint32_t receiver, const ScalarRadiosity& b) {
     double sum = 0;
     const std::size_t first = std::size_t(receiver) * rays_per_pass;
-    for (int k = 0; k < rays_per_pass; ++k) sum += b.indirect[pass.ends[first + k]] + b.direct[pass.fine_ends[first + k]];
+    for (int k = 0; k < rays_per_pass; ++k)
+        sum += b.indirect[pass.ends[first + k]] + b.direct[pass.fine_ends[first + k]];
     return sum / rays_per_pass;
 }
 

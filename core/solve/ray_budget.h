@@ -1,9 +1,9 @@
 // How many gather rays a scene needs, and how wrong the rays there are leave a solution.
 //
-// Even and odd passes are two independent ray sets A and B of one size: the mean of their irradiances has the variance (H_A - H_B)^2 / 4. One
-// difference says little of one receiver, but much of thousands. The budget must not depend on paints or dimmers
-// (or a solution after edits would differ from a fresh one): it is found with a grey stand-in, every surface 0.5 and all luminaires of the same
-// flux, in one channel.
+// Even and odd passes are two independent ray sets A and B of one size: the mean of their irradiances has the variance
+// (H_A - H_B)^2 / 4. One difference says little of one receiver, but much of thousands. The budget must not depend on
+// paints or dimmers (or a solution after edits would differ from a fresh one): it is found with a grey stand-in, every
+// surface 0.5 and all luminaires of the same flux, in one channel.
 #pragma once
 
 #include <span>
@@ -13,14 +13,16 @@
 
 namespace lueur {
 
-// What the rays carry, in one channel: radiosity by indirect light at the receivers (U of gather_system.h), by direct light at all vertices.
+// What the rays carry, in one channel: radiosity by indirect light at the receivers (U of gather_system.h), by direct
+// light at all vertices.
 struct ScalarRadiosity {
     std::vector<float> indirect; // receivers
     std::vector<float> direct;   // all vertices
 };
 
-// Relative RMS standard error of the irradiance direct + gathered over receivers brighter than 2 % of the mean, from the two sets.
-// direct: irradiance of the receivers. An even number of passes, at least two, else 1. Receivers with weight 0 do not count.
+// Relative RMS standard error of the irradiance direct + gathered over receivers brighter than 2 % of the mean, from
+// the two sets. direct: irradiance of the receivers. An even number of passes, at least two, else 1. Receivers with
+// weight 0 do not count.
 double ray_error(std::span<const GatherPass> passes, const ScalarRadiosity& radiosity, std::span<const float> direct,
                  std::span<const float> weight);
 

@@ -33,7 +33,8 @@ std::vector<float> restrict_direct(const Mesh& mesh, const DirectTransport& dire
     return sum;
 }
 
-void fill_buried(std::span<const glm::uvec3> elements, std::vector<std::uint8_t> buried, std::vector<glm::vec3>& values) {
+void fill_buried(std::span<const glm::uvec3> elements, std::vector<std::uint8_t> buried,
+                 std::vector<glm::vec3>& values) {
     std::vector<glm::uvec3> mixed; // elements with buried vertices: few
     for (const glm::uvec3& e : elements)
         if (buried[e.x] || buried[e.y] || buried[e.z]) mixed.push_back(e);

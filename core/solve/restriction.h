@@ -9,15 +9,17 @@
 
 namespace lueur {
 
-// Area that belongs to each coarse vertex: the hat-function integral over the fine mesh, so that sum A_j H_j is the flux of the fine field.
+// Area that belongs to each coarse vertex: the hat-function integral over the fine mesh, so that sum A_j H_j is the
+// flux of the fine field.
 std::vector<float> coarse_vertex_areas(const Mesh& mesh);
 
-// The area-weighted mean of D under each coarse vertex's hat function, times emitters; buried fine vertices do not count. A shadow
-// edge inside an element so costs a bounce no energy.
+// The area-weighted mean of D under each coarse vertex's hat function, times emitters; buried fine vertices do not
+// count. A shadow edge inside an element so costs a bounce no energy.
 std::vector<float> restrict_direct(const Mesh& mesh, const DirectTransport& direct);
 
-// Gives buried vertices the mean of their neighbours that are not, ring by ring, so that interpolation across a contact does not
-// darken what is seen. `elements` may use any vertices below values.size().
-void fill_buried(std::span<const glm::uvec3> elements, std::vector<std::uint8_t> buried, std::vector<glm::vec3>& values);
+// Gives buried vertices the mean of their neighbours that are not, ring by ring, so that interpolation across a contact
+// does not darken what is seen. `elements` may use any vertices below values.size().
+void fill_buried(std::span<const glm::uvec3> elements, std::vector<std::uint8_t> buried,
+                 std::vector<glm::vec3>& values);
 
 } // namespace lueur

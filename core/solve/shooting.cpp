@@ -20,16 +20,23 @@ namespace {
 using Range = tbb::blocked_range<std::uint32_t>;
 constexpr std::uint32_t grain = 256;
 constexpr std::uint32_t shadow_rays = 3; // a receiver and shot
-constexpr double most_sent_on = 0.98; // of a shot's flux
+constexpr double most_sent_on = 0.98;    // of a shot's flux
 
 } // namespace
 
-Shooting::Shooting(const World& world, const Mesh& mesh, std::vector<glm::vec3> origins, std::vector<std::uint8_t> buried,
-                   std::vector<ChannelField> direct, std::vector<double> emitted_flux, ChannelField rho, std::vector<float> weight,
-                   std::uint32_t seed)
-    : world_(&world), mesh_(&mesh), origins_(std::move(origins)), buried_(std::move(buried)), direct_(std::move(direct)),
-      emitted_(std::move(emitted_flux)), luminaire_shot_(emitted_.size(), 0), rho_(std::move(rho)), weight_(std::move(weight)),
-      seed_(seed) {
+Shooting::Shooting(const World& world, const Mesh& mesh, std::vector<glm::vec3> origins,
+                   std::vector<std::uint8_t> buried, std::vector<ChannelField> direct, std::vector<double> emitted_flux,
+                   ChannelField rho, std::vector<float> weight, std::uint32_t seed)
+    : world_(&world)
+    , mesh_(&mesh)
+    , origins_(std::move(origins))
+    , buried_(std::move(buried))
+    , direct_(std::move(direct))
+    , emitted_(std::move(emitted_flux))
+    , luminaire_shot_(emitted_.size(), 0)
+    , rho_(std::move(rho))
+    , weight_(std::move(weight))
+    , seed_(seed) {
     const int channels = static_cast<int>(weight_.size());
     const std::uint32_t patches = static_cast<std::uint32_t>(mesh.patches.size());
     h_ = ChannelField(mesh.coarse_vertex_count, channels);
@@ -63,9 +70,12 @@ Shooting::Shooting(const World& world, const Mesh& mesh, std::vector<glm::vec3> 
     if (weights > 0) mean_rho_ /= weights;
 }
 
-double Shooting::unshot_share() const { return emitted_total_ > 0 ? unshot_total_ / emitted_total_ : 0; }
+double Shooting::unshot_share() const {
+    return emitted_total_ > 0 ? unshot_total_ / emitted_total_ : 0;
+}
 
-// What a patch's elements receive from values at the vertices: their mean, over area. Buried vertices do not count; sums go to `out`.
+// What a patch's elements receive from values at the vertices: their mean, over area. Buried vertices do not count;
+// sums go to `out`.
 template <int Channels>
 void Shooting::add_patch_mean(std::uint32_t patch, const float* values, int stride, float* out) const {
     const Mesh& mesh = *mesh_;
@@ -89,10 +99,18 @@ void Shooting::receive(const ChannelField& irradiance) {
         for (std::uint32_t p = range.begin(); p < range.end(); ++p) {
             float mean[max_channels] = {};
             switch (irradiance.stride) {
-            case 8: add_patch_mean<8>(p, irradiance.values.data(), 8, mean); break;
-            case 16: add_patch_mean<16>(p, irradiance.values.data(), 16, mean); break;
-            case 24: add_patch_mean<24>(p, irradiance.values.data(), 24, mean); break;
-            default: add_patch_mean<32>(p, irradiance.values.data(), 32, mean); break;
+            case 8:
+                add_patch_mean<8>(p, irradiance.values.data(), 8, mean);
+                break;
+            case 16:
+                add_patch_mean<16>(p, irradiance.values.data(), 16, mean);
+                break;
+            case 24:
+                add_patch_mean<24>(p, irradiance.values.data(), 24, mean);
+                break;
+            default:
+                add_patch_mean<32>(p, irradiance.values.data(), 32, mean);
+                break;
             }
             float flux = 0;
             for (int c = 0; c < channels; ++c) {
@@ -106,8 +124,8 @@ void Shooting::receive(const ChannelField& irradiance) {
 
 void Shooting::deliver(const std::vector<float>& form_factor, const float* radiosity, double shot_flux) {
     const int channels = static_cast<int>(weight_.size());
-    // The flux that the patches would send on. Form factors from a vertex sum to 1, but the mean over the vertices of elements that touch
-    // the shooter is too much.
+    // The flux that the patches would send on. Form factors from a vertex sum to 1, but the mean over the vertices of
+    // elements that touch the shooter is too much.
     const double sent_on = tbb::parallel_deterministic_reduce(
         Range(0, unshot_.count, 4 * grain), 0.0,
         [&](const Range& range, double sum) {
@@ -203,7 +221,8 @@ bool Shooting::shoot() {
 }
 
 std::vector<float> Shooting::ambient() const {
-    // B_ambient = R sum_j dB_j A_j / sum_k A_k, R = 1 / (1 - rho_ave) (corrections 34: display only, capped where rho_ave -> 1).
+    // B_ambient = R sum_j dB_j A_j / sum_k A_k, R = 1 / (1 - rho_ave) (corrections 34: display only, capped where
+    // rho_ave -> 1).
     const int channels = static_cast<int>(weight_.size());
     std::vector<double> sum(channels, 0);
     for (std::uint32_t p = 0; p < unshot_.count; ++p)

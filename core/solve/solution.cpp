@@ -19,12 +19,12 @@ namespace lueur {
 
 namespace {
 
-constexpr double residual_target = 2e-4;  // |r| / |b|, worst channel
-constexpr std::uint32_t most_sweeps = 400; // a system that needs more does not converge
+constexpr double residual_target = 2e-4;       // |r| / |b|, worst channel
+constexpr std::uint32_t most_sweeps = 400;     // a system that needs more does not converge
 constexpr std::uint32_t fine_vertices = 20000; // that direct light may add: the window has to draw them
-constexpr double receiver_cell = 0.3;      // of the coarse element size
-constexpr double ray_share = 0.7;         // of the target error that the rays may take; interpolation has the rest
-constexpr double unshot_part = 0.2;       // of the target error that flux left unshot may take
+constexpr double receiver_cell = 0.3;          // of the coarse element size
+constexpr double ray_share = 0.7;              // of the target error that the rays may take; interpolation has the rest
+constexpr double unshot_part = 0.2;            // of the target error that flux left unshot may take
 
 using State = Solution::State;
 
@@ -70,7 +70,8 @@ ChannelField direct_of(const State& s, std::size_t first, std::size_t last) {
         for (std::size_t l = first; l < last; ++l) {
             const float d = s.coarse_direct[i * emitters + l];
             if (d == 0) continue;
-            for (int c = 0; c < s.wavelengths.size(); ++c) h[i][c] += d * static_cast<float>(s.luminaire_exitance[l][c]);
+            for (int c = 0; c < s.wavelengths.size(); ++c)
+                h[i][c] += d * static_cast<float>(s.luminaire_exitance[l][c]);
         }
     return h;
 }
@@ -101,16 +102,18 @@ ChannelField reflected_direct(const State& s) {
     const int channels = s.wavelengths.size();
     const std::size_t emitters = s.direct->emitter_count();
     ChannelField b(count + 1, channels);
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, count, 256), [&](const tbb::blocked_range<std::uint32_t>& range) {
-        for (std::uint32_t v = range.begin(); v < range.end(); ++v) {
-            const auto& rho = s.material_rho[s.material_of(s.mesh.vertices[v].surface)];
-            const float* d = s.direct->at_vertex(v);
-            for (std::size_t l = 0; l < emitters; ++l) {
-                if (d[l] == 0) continue;
-                for (int c = 0; c < channels; ++c) b[v][c] += d[l] * static_cast<float>(rho[c] * s.luminaire_exitance[l][c]);
-            }
-        }
-    });
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, count, 256),
+                      [&](const tbb::blocked_range<std::uint32_t>& range) {
+                          for (std::uint32_t v = range.begin(); v < range.end(); ++v) {
+                              const auto& rho = s.material_rho[s.material_of(s.mesh.vertices[v].surface)];
+                              const float* d = s.direct->at_vertex(v);
+                              for (std::size_t l = 0; l < emitters; ++l) {
+                                  if (d[l] == 0) continue;
+                                  for (int c = 0; c < channels; ++c)
+                                      b[v][c] += d[l] * static_cast<float>(rho[c] * s.luminaire_exitance[l][c]);
+                              }
+                          }
+                      });
     return b;
 }
 
@@ -167,7 +170,8 @@ void update_error(State& s) {
     const double rays = ray_error(s.passes, radiosity, direct, receiver_areas(s));
     const double unsolved = s.status.unshot_share / std::max(1e-3, 1 - mean_rho);
     const double interpolation = s.direct->misfit();
-    s.status.estimated_error = std::min(1.0, std::sqrt(rays * rays + unsolved * unsolved + interpolation * interpolation));
+    s.status.estimated_error =
+        std::min(1.0, std::sqrt(rays * rays + unsolved * unsolved + interpolation * interpolation));
 }
 
 // In a closed scene that absorbs nothing the radiosity grows without end: say so instead of iterating.
@@ -232,9 +236,11 @@ void restrict_sources(State& s) {
 
 void settle(State& s) {
     const double target = s.scene->solve.target_error;
-    if (s.status.message.empty() && s.status.estimated_error > 1.1 * target && s.scene->solve.solver == SolverKind::gathering)
-        s.status.message = fmt::format("estimated error {:.1f} %, above the target of {:.1f} %: {} rays a receiver are the limit set",
-                                       100 * s.status.estimated_error, 100 * target, s.status.rays_per_receiver);
+    if (s.status.message.empty() && s.status.estimated_error > 1.1 * target &&
+        s.scene->solve.solver == SolverKind::gathering)
+        s.status.message =
+            fmt::format("estimated error {:.1f} %, above the target of {:.1f} %: {} rays a receiver are the limit set",
+                        100 * s.status.estimated_error, 100 * target, s.status.rays_per_receiver);
     s.phase = SolvePhase::settled;
     s.status.stage = SolveStage::settled;
     s.status.settled = true;
@@ -255,7 +261,8 @@ void publish_mesh(State& s) {
 
 void step_mesh(State& s) {
     s.status.stage = SolveStage::meshing;
-    const double size = s.scene->solve.element_size > 0 ? s.scene->solve.element_size : automatic_element_size(*s.scene);
+    const double size =
+        s.scene->solve.element_size > 0 ? s.scene->solve.element_size : automatic_element_size(*s.scene);
     s.mesh = make_mesh(*s.scene, {size});
     s.world = std::make_shared<const World>(s.mesh);
     s.origins = ray_origins(s.mesh, s.world->epsilon());
@@ -285,7 +292,8 @@ void step_burial(State& s, const std::atomic<bool>& cancel) {
         return;
     s.status.rays += std::uint64_t(s.mesh.coarse_vertex_count) * 16;
     restrict_sources(s);
-    const double size = s.scene->solve.element_size > 0 ? s.scene->solve.element_size : automatic_element_size(*s.scene);
+    const double size =
+        s.scene->solve.element_size > 0 ? s.scene->solve.element_size : automatic_element_size(*s.scene);
     s.receivers = make_receivers(*s.scene, s.mesh, s.buried, static_cast<float>(receiver_cell * size));
     s.status.receivers = s.receivers.count();
     s.phase = s.scene->solve.solver == SolverKind::shooting ? SolvePhase::refine : SolvePhase::gather;
@@ -326,8 +334,9 @@ std::uint32_t most_passes(const State& s) {
     return independent_sets * std::max<std::uint32_t>(1, static_cast<std::uint32_t>(s.scene->solve.max_rays) / group);
 }
 
-// More rays? Asked each time there are as many as were wanted; the answer depends on the geometry only. The error of a quasi-random
-// set falls somewhat faster than one over the root of its rays; two thirds of the way that would leave are gone at once.
+// More rays? Asked each time there are as many as were wanted; the answer depends on the geometry only. The error of a
+// quasi-random set falls somewhat faster than one over the root of its rays; two thirds of the way that would leave are
+// gone at once.
 void plan_passes(State& s) {
     const std::uint32_t now = static_cast<std::uint32_t>(s.passes.size());
     if (s.rays_planned || now < s.passes_wanted) return;
@@ -346,7 +355,8 @@ void plan_passes(State& s) {
 void step_sweep(State& s, const std::atomic<bool>& cancel) {
     s.status.stage = SolveStage::solving;
     if (has_no_finite_solution(s))
-        return fail(s, "no finite solution: the scene is closed and every surface reflects everything; some reflectance must be below 1");
+        return fail(s, "no finite solution: the scene is closed and every surface reflects everything; some "
+                       "reflectance must be below 1");
     if (s.system.relative_residual() > residual_target) {
         if (!s.system.sweep(s.passes, cancel)) return;
         ++s.status.sweeps;
@@ -440,7 +450,8 @@ std::vector<float> Solution::State::ambient() const {
     return scene->solve.solver == SolverKind::shooting && solving ? shooting.ambient() : std::vector<float>{};
 }
 
-Solution::Solution(std::shared_ptr<const Scene> scene) : state_(std::make_unique<State>()) {
+Solution::Solution(std::shared_ptr<const Scene> scene)
+    : state_(std::make_unique<State>()) {
     state_->scene = std::move(scene);
     make_channels(*state_);
 }
@@ -503,16 +514,33 @@ bool Solution::step(const std::atomic<bool>& cancel, bool one_shot) {
     const auto start = std::chrono::steady_clock::now();
     const std::uint64_t direct_before = s.direct ? s.direct->rays() : 0;
     switch (s.phase) {
-    case SolvePhase::mesh: step_mesh(s); break;
-    case SolvePhase::sketch: step_sketch(s, cancel); break;
-    case SolvePhase::light: step_light(s, cancel); break;
-    case SolvePhase::burial: step_burial(s, cancel); break;
-    case SolvePhase::gather: step_gather(s, cancel); break;
-    case SolvePhase::sweep: step_sweep(s, cancel); break;
-    case SolvePhase::refine: step_refine(s, cancel); break;
-    case SolvePhase::shoot: step_shoot(s, cancel, one_shot); break;
+    case SolvePhase::mesh:
+        step_mesh(s);
+        break;
+    case SolvePhase::sketch:
+        step_sketch(s, cancel);
+        break;
+    case SolvePhase::light:
+        step_light(s, cancel);
+        break;
+    case SolvePhase::burial:
+        step_burial(s, cancel);
+        break;
+    case SolvePhase::gather:
+        step_gather(s, cancel);
+        break;
+    case SolvePhase::sweep:
+        step_sweep(s, cancel);
+        break;
+    case SolvePhase::refine:
+        step_refine(s, cancel);
+        break;
+    case SolvePhase::shoot:
+        step_shoot(s, cancel, one_shot);
+        break;
     case SolvePhase::settled:
-    case SolvePhase::failed: break;
+    case SolvePhase::failed:
+        break;
     }
     s.status.rays += s.direct->rays() - direct_before;
     if (s.status.stage == SolveStage::direct) s.status.progress = s.direct->progress();
@@ -528,10 +556,18 @@ bool Solution::step(const std::atomic<bool>& cancel, bool one_shot) {
     return s.phase != SolvePhase::settled && s.phase != SolvePhase::failed;
 }
 
-const SolveStatus& Solution::status() const { return state_->status; }
-const std::shared_ptr<const Scene>& Solution::scene() const { return state_->scene; }
-std::shared_ptr<const Mesh> Solution::mesh() const { return state_->published_mesh; }
-std::shared_ptr<const World> Solution::world() const { return state_->world; }
+const SolveStatus& Solution::status() const {
+    return state_->status;
+}
+const std::shared_ptr<const Scene>& Solution::scene() const {
+    return state_->scene;
+}
+std::shared_ptr<const Mesh> Solution::mesh() const {
+    return state_->published_mesh;
+}
+std::shared_ptr<const World> Solution::world() const {
+    return state_->world;
+}
 std::shared_ptr<const Field> Solution::field() const {
     return state_->published_mesh ? compose_field(*state_) : nullptr;
 }

@@ -1,7 +1,7 @@
 // A solution in the making: mesh, transport and radiosities of one scene, brought forward in small steps.
 //
-// Thread: one at a time; a step uses the calling TBB arena for its parallel loops. Everything handed out (mesh, world, field) is immutable
-// and may be kept and read from any thread.
+// Thread: one at a time; a step uses the calling TBB arena for its parallel loops. Everything handed out (mesh, world,
+// field) is immutable and may be kept and read from any thread.
 #pragma once
 
 #include <atomic>
@@ -25,11 +25,12 @@ public:
     Solution(Solution&&) noexcept;
     Solution& operator=(Solution&&) noexcept;
 
-    // sources: new exitances (no ray); reflectance: new reflectances or wavelengths (no ray); black: start again from zero on kept rays.
+    // sources: new exitances (no ray); reflectance: new reflectances or wavelengths (no ray); black: start again from
+    // zero on kept rays.
     void update(std::shared_ptr<const Scene> scene, SolveFrom stale);
 
-    // One small step (about 5 ms of work a core); stops early and resumably when `cancel` becomes true. False when nothing is left to do.
-    // `one_shot`: a step of the shooting solver is a single shot, to be looked at.
+    // One small step (about 5 ms of work a core); stops early and resumably when `cancel` becomes true. False when
+    // nothing is left to do. `one_shot`: a step of the shooting solver is a single shot, to be looked at.
     bool step(const std::atomic<bool>& cancel, bool one_shot = false);
 
     const SolveStatus& status() const;

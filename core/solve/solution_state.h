@@ -22,32 +22,32 @@ struct Solution::State {
     std::uint32_t cursor = 0; // of the phase's time slices
 
     // Transport: geometry only.
-    Mesh mesh;                                   // grows while direct light refines it
-    std::shared_ptr<const Mesh> published_mesh;  // as of the last level
+    Mesh mesh;                                  // grows while direct light refines it
+    std::shared_ptr<const Mesh> published_mesh; // as of the last level
     std::shared_ptr<const World> world;
     std::unique_ptr<DirectTransport> direct;
-    std::vector<glm::vec3> origins;              // of coarse vertices
-    std::vector<std::uint8_t> buried;            // coarse vertices
-    Receivers receivers;                         // who gathers for the coarse vertices
+    std::vector<glm::vec3> origins;   // of coarse vertices
+    std::vector<std::uint8_t> buried; // coarse vertices
+    Receivers receivers;              // who gathers for the coarse vertices
     std::vector<GatherPass> passes;
-    bool pass_open = false;                      // the last pass is being traced
-    std::uint32_t passes_wanted = 1;             // from the geometry alone: see passes_for
-    bool rays_planned = false;                   // passes_wanted will not grow any more
+    bool pass_open = false;          // the last pass is being traced
+    std::uint32_t passes_wanted = 1; // from the geometry alone: see passes_for
+    bool rays_planned = false;       // passes_wanted will not grow any more
     bool refined = false;
-    std::vector<float> coarse_direct;            // D restricted to coarse vertices, * emitters
-    std::vector<float> coarse_area;              // m^2 of each coarse vertex
+    std::vector<float> coarse_direct; // D restricted to coarse vertices, * emitters
+    std::vector<float> coarse_area;   // m^2 of each coarse vertex
 
     // Sources and paints, in channels.
     Wavelengths wavelengths;
-    std::vector<std::vector<double>> material_rho;      // per material
+    std::vector<std::vector<double>> material_rho;       // per material
     std::vector<std::vector<double>> luminaire_exitance; // per luminaire, W m^-2 nm^-1
     std::vector<std::optional<LuminaireIndex>> object_luminaire;
 
     GatherSystem system;
-    ChannelField gathered_direct;                // irradiance at receivers after one reflection of direct light
-    ChannelField indirect_irradiance;            // gathered_direct + W U at the coarse vertices, refreshed after sweeps
+    ChannelField gathered_direct;     // irradiance at receivers after one reflection of direct light
+    ChannelField indirect_irradiance; // gathered_direct + W U at the coarse vertices, refreshed after sweeps
     Shooting shooting;
-    bool solving = false; // system or shooting hold this scene's sources
+    bool solving = false;  // system or shooting hold this scene's sources
     bool edit_open = true; // last_edit_seconds is still to be set
 
     std::uint32_t material_of(std::uint32_t surface) const;
@@ -60,7 +60,8 @@ struct Solution::State {
 
 std::shared_ptr<const Field> compose_field(const Solution::State& state);
 
-// Reflected radiosity per channel at a point of a coarse element: rho (H_direct + H_indirect). `radiosity` has one entry a channel.
+// Reflected radiosity per channel at a point of a coarse element: rho (H_direct + H_indirect). `radiosity` has one
+// entry a channel.
 void add_reflected_radiosity(const Solution::State& state, std::uint32_t element, float b1, float b2, double factor,
                              std::span<double> radiosity);
 

@@ -4,13 +4,20 @@ namespace lueur {
 
 std::string to_string(SolveStage stage) {
     switch (stage) {
-    case SolveStage::idle: return "idle";
-    case SolveStage::meshing: return "meshing";
-    case SolveStage::direct: return "direct light";
-    case SolveStage::gathering_rays: return "gathering rays";
-    case SolveStage::solving: return "solving";
-    case SolveStage::settled: return "settled";
-    case SolveStage::failed: return "failed";
+    case SolveStage::idle:
+        return "idle";
+    case SolveStage::meshing:
+        return "meshing";
+    case SolveStage::direct:
+        return "direct light";
+    case SolveStage::gathering_rays:
+        return "gathering rays";
+    case SolveStage::solving:
+        return "solving";
+    case SolveStage::settled:
+        return "settled";
+    case SolveStage::failed:
+        return "failed";
     }
     return {};
 }

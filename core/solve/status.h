@@ -19,10 +19,10 @@ struct ConvergencePoint {
 
 struct SolveStatus {
     SolveStage stage = SolveStage::idle;
-    double progress = 0;          // 0..1 of the stage
-    bool settled = false;         // the target error is met, nothing is left to do
+    double progress = 0;  // 0..1 of the stage
+    bool settled = false; // the target error is met, nothing is left to do
     bool paused = false;
-    double unshot_share = 1;      // as ConvergencePoint
+    double unshot_share = 1; // as ConvergencePoint
     double estimated_error = 1;
     double emitted_lumens = 0;
     double seconds = 0;           // solve time since the last stale edit
@@ -33,7 +33,7 @@ struct SolveStatus {
     std::uint32_t sweeps = 0, shots = 0;
     std::uint32_t receivers = 0, vertices = 0, elements = 0;
     std::uint32_t shooting_patch = no_index; // patch of the mesh that shot last; no_index: a luminaire, or none
-    std::string message;          // a warning the user should read (no light, open scene...), or why it failed
+    std::string message; // a warning the user should read (no light, open scene...), or why it failed
 };
 
 } // namespace lueur

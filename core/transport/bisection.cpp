@@ -2,7 +2,8 @@
 
 namespace lueur {
 
-Bisection::Bisection(Mesh& mesh) : mesh_(mesh) {
+Bisection::Bisection(Mesh& mesh)
+    : mesh_(mesh) {
     edge_leaves_.reserve(mesh.nodes.size() * 2);
     for (std::uint32_t n = 0; n < mesh.nodes.size(); ++n)
         if (mesh.nodes[n].children == no_index) attach(n);
@@ -11,8 +12,10 @@ Bisection::Bisection(Mesh& mesh) : mesh_(mesh) {
 void Bisection::attach(std::uint32_t node) {
     const glm::uvec3 v = mesh_.nodes[node].vertices;
     for (int k = 0; k < 3; ++k) {
-        auto& leaves = edge_leaves_.try_emplace(edge_key(v[k], v[(k + 1) % 3]), std::array{no_index, no_index}).first->second;
-        (leaves[0] == no_index ? leaves[0] : leaves[1]) = node; // a third leaf at an edge keeps its place with its first neighbour only
+        auto& leaves =
+            edge_leaves_.try_emplace(edge_key(v[k], v[(k + 1) % 3]), std::array{no_index, no_index}).first->second;
+        (leaves[0] == no_index ? leaves[0] : leaves[1]) =
+            node; // a third leaf at an edge keeps its place with its first neighbour only
     }
 }
 
@@ -22,8 +25,10 @@ void Bisection::detach(std::uint32_t node) {
         const auto found = edge_leaves_.find(edge_key(v[k], v[(k + 1) % 3]));
         if (found == edge_leaves_.end()) continue;
         auto& leaves = found->second;
-        if (leaves[0] == node) leaves[0] = leaves[1], leaves[1] = no_index;
-        else if (leaves[1] == node) leaves[1] = no_index;
+        if (leaves[0] == node)
+            leaves[0] = leaves[1], leaves[1] = no_index;
+        else if (leaves[1] == node)
+            leaves[1] = no_index;
         if (leaves[0] == no_index) edge_leaves_.erase(found);
     }
 }
@@ -52,7 +57,8 @@ int Bisection::longest_edge(std::uint32_t node) const {
         const std::uint32_t a = v[k], b = v[(k + 1) % 3];
         const float length = edge_length(a, b);
         const std::uint64_t key = edge_key(a, b);
-        if (length > best_length || (length == best_length && key > best_key)) best = k, best_length = length, best_key = key;
+        if (length > best_length || (length == best_length && key > best_key))
+            best = k, best_length = length, best_key = key;
     }
     return best;
 }
@@ -96,8 +102,12 @@ void Bisection::split(std::uint32_t start) {
         const MeshVertex &va = mesh_.vertices[a], &vb = mesh_.vertices[b];
         const glm::vec3 normal = va.normal + vb.normal;
         const float length = glm::length(normal);
-        const MeshVertex middle{0.5f * (va.position + vb.position), length > 1e-6f ? normal / length : va.normal,
-                                0.5f * (va.uv + vb.uv), va.surface, va.back, {a, b}};
+        const MeshVertex middle{0.5f * (va.position + vb.position),
+                                length > 1e-6f ? normal / length : va.normal,
+                                0.5f * (va.uv + vb.uv),
+                                va.surface,
+                                va.back,
+                                {a, b}};
         const std::uint32_t midpoint = static_cast<std::uint32_t>(mesh_.vertices.size());
         mesh_.vertices.push_back(middle);
         bisect(node, edge, midpoint);

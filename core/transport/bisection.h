@@ -1,5 +1,6 @@
-// Longest-edge bisection of a conforming triangle mesh (Rivara 1984, "Algorithms for refining triangular grids suitable for adaptive and multigrid
-// techniques"): splitting an element splits its neighbours as far as needed, so that the mesh stays conforming.
+// Longest-edge bisection of a conforming triangle mesh (Rivara 1984, "Algorithms for refining triangular grids suitable
+// for adaptive and multigrid techniques"): splitting an element splits its neighbours as far as needed, so that the
+// mesh stays conforming.
 #pragma once
 
 #include <cstdint>

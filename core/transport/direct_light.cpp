@@ -12,9 +12,9 @@ namespace lueur {
 
 namespace {
 
-constexpr int shadow_points = 36;    // in a penumbra
-constexpr int probe_points = 6;      // settle the fully lit and the fully dark
-constexpr float far_diameters = 4;   // from here on points replace the exact formula
+constexpr int shadow_points = 36;  // in a penumbra
+constexpr int probe_points = 6;    // settle the fully lit and the fully dark
+constexpr float far_diameters = 4; // from here on points replace the exact formula
 constexpr std::size_t most_exact_triangles = 64;
 constexpr std::size_t few_triangles = 4; // no dearer than the points
 
@@ -114,7 +114,8 @@ std::vector<Emitter> make_emitters(const Scene& scene) {
     return emitters;
 }
 
-float direct_form_factor(const World& world, const Emitter& emitter, glm::vec3 origin, glm::vec3 normal, std::uint64_t& rays) {
+float direct_form_factor(const World& world, const Emitter& emitter, glm::vec3 origin, glm::vec3 normal,
+                         std::uint64_t& rays) {
     if (nothing_arrives(emitter, origin, normal)) return 0;
     int seen = 0, facing = 0;
     for (const EmitterPoint& p : emitter.probes) {
@@ -154,8 +155,8 @@ float direct_form_factor_sketch(const World& world, const Emitter& emitter, glm:
     return f > 0 && sees(world, origin, p.position) ? std::min(f, 1.0f) : 0;
 }
 
-float direct_form_factor_sampled(const World& world, const Emitter& emitter, glm::vec3 origin, glm::vec3 normal, int samples,
-                                 glm::vec2 offset) {
+float direct_form_factor_sampled(const World& world, const Emitter& emitter, glm::vec3 origin, glm::vec3 normal,
+                                 int samples, glm::vec2 offset) {
     if (nothing_arrives(emitter, origin, normal)) return 0;
     double visible = 0, all = 0;
     for (int k = 0; k < samples; ++k) {

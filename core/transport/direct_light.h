@@ -1,8 +1,9 @@
 // Direct light apart: how much of a luminaire's exitance arrives at a point.
 //
-// D = F * V: F the exact polygon form factor (polygon_form_factor.h), V the visible share by stratified shadow rays, weighted with
-// cos cos / r^2 (so D is the irradiance for unit exitance). Far from a luminaire of many triangles F too comes from the stratified points: at
-// four times its diameter they agree to 0.5 %. The points are the same for all receivers, so that shadows are smooth from vertex to vertex.
+// D = F * V: F the exact polygon form factor (polygon_form_factor.h), V the visible share by stratified shadow rays,
+// weighted with cos cos / r^2 (so D is the irradiance for unit exitance). Far from a luminaire of many triangles F too
+// comes from the stratified points: at four times its diameter they agree to 0.5 %. The points are the same for all
+// receivers, so that shadows are smooth from vertex to vertex.
 #pragma once
 
 #include <array>
@@ -29,9 +30,9 @@ struct Emitter {
     std::vector<EmitterTriangle> triangles;
     float area = 0;
     glm::vec3 centre{0};
-    float radius = 0;                 // of a sphere around it
-    std::vector<EmitterPoint> probes; // far apart: all seen or all hidden settles V
-    std::vector<EmitterPoint> points; // stratified by area
+    float radius = 0;                   // of a sphere around it
+    std::vector<EmitterPoint> probes;   // far apart: all seen or all hidden settles V
+    std::vector<EmitterPoint> points;   // stratified by area
     std::vector<float> cumulative_area; // one a triangle, ends at `area`
 };
 
@@ -41,13 +42,16 @@ std::vector<Emitter> make_emitters(const Scene& scene);
 EmitterPoint emitter_point(const Emitter& emitter, glm::vec2 u);
 
 // D for one receiver. `origin` is already off its surface.
-float direct_form_factor(const World& world, const Emitter& emitter, glm::vec3 origin, glm::vec3 normal, std::uint64_t& rays);
+float direct_form_factor(const World& world, const Emitter& emitter, glm::vec3 origin, glm::vec3 normal,
+                         std::uint64_t& rays);
 
-// A first guess with one shadow ray, to a probe chosen by `choice`: unbiased far away, rough near the lamp. For a picture at once.
-float direct_form_factor_sketch(const World& world, const Emitter& emitter, glm::vec3 origin, glm::vec3 normal, std::uint32_t choice);
+// A first guess with one shadow ray, to a probe chosen by `choice`: unbiased far away, rough near the lamp. For a
+// picture at once.
+float direct_form_factor_sketch(const World& world, const Emitter& emitter, glm::vec3 origin, glm::vec3 normal,
+                                std::uint32_t choice);
 
 // The same with `samples` shadow rays of their own random set, for measuring: unbiased visibility.
-float direct_form_factor_sampled(const World& world, const Emitter& emitter, glm::vec3 origin, glm::vec3 normal, int samples,
-                                 glm::vec2 offset);
+float direct_form_factor_sampled(const World& world, const Emitter& emitter, glm::vec3 origin, glm::vec3 normal,
+                                 int samples, glm::vec2 offset);
 
 } // namespace lueur

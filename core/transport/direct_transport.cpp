@@ -9,8 +9,13 @@
 
 namespace lueur {
 
-DirectTransport::DirectTransport(const World& world, Mesh& mesh, std::vector<Emitter> emitters, const DirectParams& params)
-    : world_(world), mesh_(mesh), emitters_(std::move(emitters)), params_(params), bisection_(mesh) {
+DirectTransport::DirectTransport(const World& world, Mesh& mesh, std::vector<Emitter> emitters,
+                                 const DirectParams& params)
+    : world_(world)
+    , mesh_(mesh)
+    , emitters_(std::move(emitters))
+    , params_(params)
+    , bisection_(mesh) {
     for (const Emitter& e : emitters_) weight_.push_back(e.area > 0 ? 1 / e.area : 0);
     origins_ = ray_origins(mesh_, world_.epsilon());
     factors_.assign(mesh_.vertices.size() * emitters_.size(), 0);
@@ -42,8 +47,9 @@ bool DirectTransport::sketch(const std::atomic<bool>& cancel) {
     return run_slice(sketch_cursor_, count, 128, cancel, [&](std::uint32_t first, std::uint32_t last) {
         for (std::uint32_t v = first; v < last; ++v)
             for (std::size_t l = 0; l < emitters_.size(); ++l)
-                factors_[std::size_t(v) * emitters_.size() + l] = direct_form_factor_sketch(
-                    world_, emitters_[l], origins_[v], mesh_.vertices[v].normal, hash(v, static_cast<std::uint32_t>(l)));
+                factors_[std::size_t(v) * emitters_.size() + l] =
+                    direct_form_factor_sketch(world_, emitters_[l], origins_[v], mesh_.vertices[v].normal,
+                                              hash(v, static_cast<std::uint32_t>(l)));
         rays_.fetch_add(std::uint64_t(last - first) * emitters_.size(), std::memory_order_relaxed);
     });
 }
@@ -134,18 +140,21 @@ void DirectTransport::split_bent() {
     buried_.resize(after, 0);
     list_leaves(mesh_);
     origins_ = ray_origins(mesh_, world_.epsilon());
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(before, after, 16), [&](const tbb::blocked_range<std::uint32_t>& range) {
-        for (std::uint32_t v = range.begin(); v < range.end(); ++v) {
-            const auto& parents = mesh_.vertices[v].parents;
-            const auto slot = edge_slot_.find(Bisection::edge_key(parents[0], parents[1]));
-            float* factors = factors_.data() + std::size_t(v) * emitters_.size();
-            if (slot != edge_slot_.end())
-                std::copy_n(edge_factors_.data() + std::size_t(slot->second) * emitters_.size(), emitters_.size(), factors);
-            else
-                light(origins_[v], mesh_.vertices[v].normal, factors);
-            if (equal_flux_light(factors) == 0) find_buried(world_, mesh_, origins_, v, v + 1, buried_);
-        }
-    });
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(before, after, 16),
+                      [&](const tbb::blocked_range<std::uint32_t>& range) {
+                          for (std::uint32_t v = range.begin(); v < range.end(); ++v) {
+                              const auto& parents = mesh_.vertices[v].parents;
+                              const auto slot = edge_slot_.find(Bisection::edge_key(parents[0], parents[1]));
+                              float* factors = factors_.data() + std::size_t(v) * emitters_.size();
+                              if (slot != edge_slot_.end())
+                                  std::copy_n(edge_factors_.data() + std::size_t(slot->second) * emitters_.size(),
+                                              emitters_.size(), factors);
+                              else
+                                  light(origins_[v], mesh_.vertices[v].normal, factors);
+                              if (equal_flux_light(factors) == 0)
+                                  find_buried(world_, mesh_, origins_, v, v + 1, buried_);
+                          }
+                      });
     vertex_cursor_ = after;
     refined_ = after == before || after >= params_.most_vertices;
     if (refined_) misfit_ = misfit_count_ > 0 ? std::sqrt(misfit_sum_ / double(misfit_count_)) : 0;
@@ -158,20 +167,21 @@ bool DirectTransport::refine(const std::atomic<bool>& cancel) {
         level_begun_ = true;
     }
     const float epsilon = world_.epsilon();
-    const bool done = run_slice(
-        edge_cursor_, static_cast<std::uint32_t>(edges_.size()), 32, cancel, [&](std::uint32_t first, std::uint32_t last) {
-            for (std::uint32_t e = first; e < last; ++e) {
-                const EdgeMiddle& edge = edges_[e];
-                const MeshVertex &a = mesh_.vertices[edge.a], &b = mesh_.vertices[edge.b];
-                const glm::vec3 middle = 0.5f * (a.position + b.position);
-                const glm::vec3 sum = a.normal + b.normal;
-                const glm::vec3 normal = glm::dot(sum, sum) > 1e-12f ? glm::normalize(sum) : a.normal;
-                const glm::vec3 shift = 0.02f * (edge.inward / float(edge.elements) - middle);
-                const float bend = glm::dot(shift, normal);
-                light(middle + shift + (epsilon + std::abs(bend) - bend) * normal, normal,
-                      edge_factors_.data() + std::size_t(e) * emitters_.size());
-            }
-        });
+    const bool done = run_slice(edge_cursor_, static_cast<std::uint32_t>(edges_.size()), 32, cancel,
+                                [&](std::uint32_t first, std::uint32_t last) {
+                                    for (std::uint32_t e = first; e < last; ++e) {
+                                        const EdgeMiddle& edge = edges_[e];
+                                        const MeshVertex &a = mesh_.vertices[edge.a], &b = mesh_.vertices[edge.b];
+                                        const glm::vec3 middle = 0.5f * (a.position + b.position);
+                                        const glm::vec3 sum = a.normal + b.normal;
+                                        const glm::vec3 normal =
+                                            glm::dot(sum, sum) > 1e-12f ? glm::normalize(sum) : a.normal;
+                                        const glm::vec3 shift = 0.02f * (edge.inward / float(edge.elements) - middle);
+                                        const float bend = glm::dot(shift, normal);
+                                        light(middle + shift + (epsilon + std::abs(bend) - bend) * normal, normal,
+                                              edge_factors_.data() + std::size_t(e) * emitters_.size());
+                                    }
+                                });
     if (!done) return false;
     split_bent();
     level_begun_ = false;

@@ -1,7 +1,8 @@
-// Direct light at the vertices of a mesh that refines itself where direct light bends: shadow edges, contacts, places near a lamp.
+// Direct light at the vertices of a mesh that refines itself where direct light bends: shadow edges, contacts, places
+// near a lamp.
 //
-// Refinement looks at geometry only (all luminaires as if they gave the same flux), so that no edit of a lamp or a paint changes the mesh, and a
-// solution after edits is the solution of the same scene opened afresh.
+// Refinement looks at geometry only (all luminaires as if they gave the same flux), so that no edit of a lamp or a
+// paint changes the mesh, and a solution after edits is the solution of the same scene opened afresh.
 #pragma once
 
 #include <atomic>
@@ -17,8 +18,8 @@
 namespace lueur {
 
 struct DirectParams {
-    float tolerance = 0.03f;     // relative misfit of an edge's middle that splits it
-    float smallest_edge = 0;     // m: shorter edges are not split
+    float tolerance = 0.03f; // relative misfit of an edge's middle that splits it
+    float smallest_edge = 0; // m: shorter edges are not split
     std::uint32_t most_vertices = 60000;
 };
 
@@ -36,8 +37,10 @@ public:
     const std::vector<Emitter>& emitters() const { return emitters_; }
     // D of each emitter at a vertex: irradiance for unit exitance.
     const float* at_vertex(std::uint32_t v) const { return factors_.data() + std::size_t(v) * emitters_.size(); }
-    const std::vector<std::uint8_t>& buried() const { return buried_; } // one a vertex; set for dark vertices inside solids
-    double misfit() const { return misfit_; }  // RMS relative misfit at the middles of edges that were left whole
+    const std::vector<std::uint8_t>& buried() const {
+        return buried_;
+    }                                         // one a vertex; set for dark vertices inside solids
+    double misfit() const { return misfit_; } // RMS relative misfit at the middles of edges that were left whole
     std::uint64_t rays() const { return rays_.load(); }
     double progress() const; // of the stage that runs, 0..1
 
@@ -63,11 +66,11 @@ private:
     std::vector<glm::vec3> origins_;
     std::uint32_t sketch_cursor_ = 0, vertex_cursor_ = 0;
 
-    std::vector<EdgeMiddle> edges_;      // of this level, and their D
+    std::vector<EdgeMiddle> edges_; // of this level, and their D
     std::vector<float> edge_factors_;
     std::unordered_map<std::uint64_t, std::uint32_t> edge_slot_;
     std::unordered_map<std::uint64_t, std::uint8_t> straight_; // edges of earlier levels whose middle was right
-    std::vector<std::uint32_t> open_;    // leaves still to be looked at
+    std::vector<std::uint32_t> open_;                          // leaves still to be looked at
     std::uint32_t edge_cursor_ = 0, next_node_ = 0;
     bool level_begun_ = false, refined_ = false;
     float floor_ = 0;

@@ -44,9 +44,9 @@ GatherPass make_gather_pass(const Mesh& mesh, const Receivers& receivers) {
             std::vector<std::uint32_t>(rays, static_cast<std::uint32_t>(mesh.vertices.size()))};
 }
 
-void trace_gather_rays(const World& world, const Mesh& mesh, const std::vector<glm::vec3>& origins, const Receivers& receivers,
-                       const std::vector<std::uint8_t>& buried, std::uint32_t seed, std::uint32_t pass, std::uint32_t first,
-                       std::uint32_t last, GatherPass& out) {
+void trace_gather_rays(const World& world, const Mesh& mesh, const std::vector<glm::vec3>& origins,
+                       const Receivers& receivers, const std::vector<std::uint8_t>& buried, std::uint32_t seed,
+                       std::uint32_t pass, std::uint32_t first, std::uint32_t last, GatherPass& out) {
     const std::uint32_t key = hash(hash(seed, pass), 0x5bd1e995u); // of the choices of vertices
     const std::uint32_t first_point = pass / independent_sets * rays_per_pass;
     for (std::uint32_t i = first; i < last; ++i) {

@@ -1,10 +1,11 @@
 // Rows of the transport, traced once and kept: for each receiver, which vertices its cosine-distributed rays meet.
 //
-// This is the lecture's hemisphere with its item buffer, kept: each ray carries an equal share of the form factors, so that
-// W_ij = (rays of i that end at vertex j) / (rays of i) and a row sums to the share of rays that hit anything: 1 in a closed scene. A hit inside an element
-// is given to one of its three vertices, drawn with its interpolation weight: linear interpolation, unbiased, one index a ray.
-// Rays come in passes of one size. Even passes continue one quasi-random sequence, odd passes another, independent one: long sequences are
-// better spread than many short ones (twice the accuracy at 512 rays), and the difference of the two tells the error.
+// This is the lecture's hemisphere with its item buffer, kept: each ray carries an equal share of the form factors, so
+// that W_ij = (rays of i that end at vertex j) / (rays of i) and a row sums to the share of rays that hit anything: 1
+// in a closed scene. A hit inside an element is given to one of its three vertices, drawn with its interpolation
+// weight: linear interpolation, unbiased, one index a ray. Rays come in passes of one size. Even passes continue one
+// quasi-random sequence, odd passes another, independent one: long sequences are better spread than many short ones
+// (twice the accuracy at 512 rays), and the difference of the two tells the error.
 #pragma once
 
 #include <cstdint>
@@ -19,24 +20,27 @@ namespace lueur {
 inline constexpr int rays_per_pass = 32;
 inline constexpr int independent_sets = 2; // pass p belongs to set p % 2
 
-// Coarse vertices whose rays mostly meet back faces lie inside a solid (a floor vertex under a block): they take no part.
-// Receivers in [first, last) of `origins`; the result is written to buried[first..last).
+// Coarse vertices whose rays mostly meet back faces lie inside a solid (a floor vertex under a block): they take no
+// part. Receivers in [first, last) of `origins`; the result is written to buried[first..last).
 void find_buried(const World& world, const Mesh& mesh, const std::vector<glm::vec3>& origins, std::uint32_t first,
                  std::uint32_t last, std::vector<std::uint8_t>& buried);
 
 struct GatherPass {
-    // receivers * rays_per_pass of each. The receiver each ray ended at, drawn among those of the vertices of the coarse element it met (the
-    // number of receivers where it left the scene or met a black back face), and the fine vertex, drawn among those of the fine
-    // element (the number of vertices then): indirect light is read from receivers, direct light from fine vertices.
+    // receivers * rays_per_pass of each. The receiver each ray ended at, drawn among those of the vertices of the
+    // coarse element it met (the number of receivers where it left the scene or met a black back face), and the fine
+    // vertex, drawn among those of the fine element (the number of vertices then): indirect light is read from
+    // receivers, direct light from fine vertices.
     std::vector<std::uint32_t> ends;
     std::vector<std::uint32_t> fine_ends;
 };
 
 GatherPass make_gather_pass(const Mesh& mesh, const Receivers& receivers);
 
-// Traces the rays of receivers [first, last) of pass number `pass`. origins, buried: of all vertices, coarse ones first. Deterministic for a seed, whatever the chunks and threads.
-void trace_gather_rays(const World& world, const Mesh& mesh, const std::vector<glm::vec3>& origins, const Receivers& receivers,
-                       const std::vector<std::uint8_t>& buried, std::uint32_t seed, std::uint32_t pass, std::uint32_t first, std::uint32_t last, GatherPass& out);
+// Traces the rays of receivers [first, last) of pass number `pass`. origins, buried: of all vertices, coarse ones
+// first. Deterministic for a seed, whatever the chunks and threads.
+void trace_gather_rays(const World& world, const Mesh& mesh, const std::vector<glm::vec3>& origins,
+                       const Receivers& receivers, const std::vector<std::uint8_t>& buried, std::uint32_t seed,
+                       std::uint32_t pass, std::uint32_t first, std::uint32_t last, GatherPass& out);
 
 // Share of a receiver's rays that hit something that can shine: the row sum.
 double row_sum(const std::vector<GatherPass>& passes, std::uint32_t receiver, std::uint32_t receivers);

@@ -62,13 +62,14 @@ void add_surface_triangles(const Scene& scene, Mesh& mesh) {
     for (std::size_t t = 0; t < geometry.triangles.size(); ++t) {
         const std::uint32_t s = static_cast<std::uint32_t>(at(geometry.triangle_surface[t]));
         const bool planar = geometry.surfaces[s].planar;
-        const glm::vec3 flat_normal = planar ? plane_normal[s] : glm::normalize(area_vector(geometry, geometry.triangles[t]));
+        const glm::vec3 flat_normal =
+            planar ? plane_normal[s] : glm::normalize(area_vector(geometry, geometry.triangles[t]));
         glm::uvec3 corners;
         for (int k = 0; k < 3; ++k) {
             const Vertex& v = geometry.vertices[geometry.triangles[t][k]];
             glm::vec3 normal = planar || v.normal == glm::vec3(0) ? flat_normal : v.normal;
             if (glm::dot(normal, flat_normal) < 0) normal = -normal; // a file's normal on the wrong side
-            const glm::vec3 p = v.position + 0.0f;                    // -0 becomes 0
+            const glm::vec3 p = v.position + 0.0f;                   // -0 becomes 0
             const WeldKey key{s, {p.x, p.y, p.z, normal.x, normal.y, normal.z, v.uv.x, v.uv.y}};
             const auto [where, fresh] = welded.try_emplace(key, static_cast<std::uint32_t>(mesh.vertices.size()));
             if (fresh) mesh.vertices.push_back({v.position, normal, v.uv, s, false, {no_index, no_index}});
@@ -81,7 +82,8 @@ void add_surface_triangles(const Scene& scene, Mesh& mesh) {
     }
 }
 
-// Elements get edges of at most `size`; thin ones (a skirting board, a slat), whose area is small anyway, of at most three times that.
+// Elements get edges of at most `size`; thin ones (a skirting board, a slat), whose area is small anyway, of at most
+// three times that.
 void refine_to_size(Mesh& mesh, float size) {
     Bisection bisection(mesh);
     const float limit = size * size;
@@ -90,8 +92,8 @@ void refine_to_size(Mesh& mesh, float size) {
         const glm::uvec3 v = mesh.nodes[n].vertices;
         const float longest = bisection.edge_length(v[edge], v[(edge + 1) % 3]);
         const glm::vec3 a = mesh.vertices[v.x].position;
-        const float twice_area = glm::length(
-            glm::cross(mesh.vertices[v.y].position - a, mesh.vertices[v.z].position - a));
+        const float twice_area =
+            glm::length(glm::cross(mesh.vertices[v.y].position - a, mesh.vertices[v.z].position - a));
         return longest > 9 * limit || (longest > limit && twice_area > 0.5f * limit);
     };
     for (std::uint32_t n = 0; n < mesh.nodes.size(); ++n) // grows while it runs: children are looked at in their turn
@@ -117,13 +119,15 @@ std::vector<std::uint32_t> patch_roots(const Mesh& mesh, const Bisection& bisect
 
 // Leaves become the coarse elements; of what they were cut from only the patches are remembered.
 void make_leaves_coarse(Mesh& mesh, float patch_size) {
-    const std::uint32_t triangles = static_cast<std::uint32_t>(mesh.coarse_surface.size()); // the first nodes are those of the scene
+    const std::uint32_t triangles =
+        static_cast<std::uint32_t>(mesh.coarse_surface.size()); // the first nodes are those of the scene
     const std::vector<std::uint32_t> root = patch_roots(mesh, Bisection(mesh), patch_size);
     std::vector<std::uint32_t> patch_of_root(mesh.nodes.size(), no_index);
     std::vector<MeshNode> leaves;
     std::vector<std::uint32_t> surface;
     std::vector<std::uint32_t> path;
-    for (std::uint32_t start = 0; start < triangles; ++start) { // depth first: neighbours in space are neighbours in number
+    for (std::uint32_t start = 0; start < triangles;
+         ++start) { // depth first: neighbours in space are neighbours in number
         path.push_back(start);
         while (!path.empty()) {
             const std::uint32_t n = path.back();
@@ -193,8 +197,8 @@ double automatic_element_size(const Scene& scene) {
     for (std::size_t t = 0; t < geometry.triangles.size(); ++t)
         area += glm::length(area_vector(geometry, geometry.triangles[t])) *
                 (two_sided[at(geometry.triangle_surface[t])] ? 2 : 1);
-    // Indirect light is smooth: few receivers do, more where there are more things to be dark between. Bisection of right triangles
-    // down to a longest edge h leaves about 2.8 / h^2 vertices a square metre.
+    // Indirect light is smooth: few receivers do, more where there are more things to be dark between. Bisection of
+    // right triangles down to a longest edge h leaves about 2.8 / h^2 vertices a square metre.
     const double vertices = 2200 + std::min(0.2 * static_cast<double>(geometry.triangles.size()), 20000.0);
     return area > 0 ? std::sqrt(2.8 * area / vertices) : 1.0;
 }

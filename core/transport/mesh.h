@@ -1,9 +1,10 @@
-// Surfaces cut into elements: a conforming triangle mesh for each surface, refined by bisecting longest edges (Rivara 1984), so that there are
-// no T-vertices inside a surface and a coarse field is read on the fine mesh without loss.
+// Surfaces cut into elements: a conforming triangle mesh for each surface, refined by bisecting longest edges (Rivara
+// 1984), so that there are no T-vertices inside a surface and a coarse field is read on the fine mesh without loss.
 //
-// Two levels live in one mesh. Coarse vertices come first: indirect light is solved there. Bisecting coarse elements further gives the fine
-// vertices, where direct light is kept. A fine vertex is the midpoint of two earlier ones (its parents), so that a field on coarse
-// vertices is prolonged by averaging parents, in order. Two-sided surfaces appear twice, once a side.
+// Two levels live in one mesh. Coarse vertices come first: indirect light is solved there. Bisecting coarse elements
+// further gives the fine vertices, where direct light is kept. A fine vertex is the midpoint of two earlier ones (its
+// parents), so that a field on coarse vertices is prolonged by averaging parents, in order. Two-sided surfaces appear
+// twice, once a side.
 #pragma once
 
 #include <array>
@@ -30,10 +31,10 @@ struct MeshVertex {
 
 // An element or what it was cut from. Nodes 0..coarse_element_count-1 are the coarse elements.
 struct MeshNode {
-    glm::uvec3 vertices;              // counter-clockwise from the lit side
-    std::uint32_t coarse;             // the coarse element it is, or is part of
+    glm::uvec3 vertices;               // counter-clockwise from the lit side
+    std::uint32_t coarse;              // the coarse element it is, or is part of
     std::uint32_t children = no_index; // first of two, next to each other; no_index: a leaf
-    std::uint8_t split_edge = 0;      // edge k runs from vertex k to vertex k+1
+    std::uint8_t split_edge = 0;       // edge k runs from vertex k to vertex k+1
 };
 
 struct Mesh {
@@ -43,13 +44,14 @@ struct Mesh {
     std::uint32_t coarse_element_count = 0;
     std::vector<std::uint32_t> coarse_surface; // of each coarse element: SurfaceIndex
     std::vector<std::uint8_t> coarse_back;     // 1: the back side of a two-sided surface
-    std::vector<std::uint32_t> coarse_twin;    // the element of the other side, vertices 2 and 3 swapped; no_index: one-sided
-    std::vector<float> coarse_area;            // m^2
+    std::vector<std::uint32_t>
+        coarse_twin;                // the element of the other side, vertices 2 and 3 swapped; no_index: one-sided
+    std::vector<float> coarse_area; // m^2
 
-    // Patches, which shoot as one: neighbouring coarse elements cut from the same triangle (elements receive, larger patches shoot: Cohen,
-    // Greenberg, Immel & Brock 1986).
-    std::vector<std::uint32_t> coarse_patch;   // of each coarse element
-    std::vector<glm::uvec3> patches;           // corners: coarse vertices, counter-clockwise from the lit side
+    // Patches, which shoot as one: neighbouring coarse elements cut from the same triangle (elements receive, larger
+    // patches shoot: Cohen, Greenberg, Immel & Brock 1986).
+    std::vector<std::uint32_t> coarse_patch; // of each coarse element
+    std::vector<glm::uvec3> patches;         // corners: coarse vertices, counter-clockwise from the lit side
 
     // The leaves, which are drawn and interpolated.
     std::vector<glm::uvec3> elements;
@@ -59,7 +61,7 @@ struct Mesh {
 };
 
 struct MeshParams {
-    double element_size = 0;        // longest coarse edge, m; 0: from the area and the number of triangles
+    double element_size = 0; // longest coarse edge, m; 0: from the area and the number of triangles
 };
 
 Mesh make_mesh(const Scene& scene, const MeshParams& params);
@@ -72,7 +74,8 @@ struct Located {
 };
 Located locate(const Mesh& mesh, std::uint32_t coarse_element, float b1, float b2);
 
-// Where rays of a vertex start: moved a little into its elements (a vertex on a corner lies in the next wall) and off its surface.
+// Where rays of a vertex start: moved a little into its elements (a vertex on a corner lies in the next wall) and off
+// its surface.
 std::vector<glm::vec3> ray_origins(const Mesh& mesh, float epsilon);
 
 // Area that belongs to each vertex of the fine mesh: a third of its elements, m^2.

@@ -1,7 +1,7 @@
 // Who gathers: coarse vertices that lie close together on one object and look the same way share one row.
 //
-// Indirect light is smooth; a mug of 200 vertices needs a few receivers, not 200. Vertices of refined walls are further apart than a cell
-// and stay receivers of their own.
+// Indirect light is smooth; a mug of 200 vertices needs a few receivers, not 200. Vertices of refined walls are further
+// apart than a cell and stay receivers of their own.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,8 @@ struct Receivers {
     std::uint32_t count() const { return static_cast<std::uint32_t>(vertex.size()); }
 };
 
-// cell: edge of the cubes, m, in which vertices of one object and side with normals within about 30 degrees are put together; buried and
-// free vertices never are.
+// cell: edge of the cubes, m, in which vertices of one object and side with normals within about 30 degrees are put
+// together; buried and free vertices never are.
 Receivers make_receivers(const Scene& scene, const Mesh& mesh, const std::vector<std::uint8_t>& buried, float cell);
 
 } // namespace lueur

@@ -9,7 +9,8 @@
 
 namespace lueur {
 
-// The additive recurrence of the plastic number (Roberts 2018, "R2"): n points of any prefix are well spread in the unit square.
+// The additive recurrence of the plastic number (Roberts 2018, "R2"): n points of any prefix are well spread in the
+// unit square.
 inline glm::vec2 r2_point(std::uint32_t n, glm::vec2 offset) {
     const glm::dvec2 step(0.7548776662466927, 0.5698402909980532);
     const glm::dvec2 p = glm::dvec2(offset) + step * (n + 0.5);
@@ -22,8 +23,12 @@ inline std::uint32_t hash(std::uint32_t x) {
     const std::uint32_t word = ((state >> ((state >> 28) + 4)) ^ state) * 277803737u;
     return (word >> 22) ^ word;
 }
-inline std::uint32_t hash(std::uint32_t a, std::uint32_t b) { return hash(a ^ (hash(b) + 0x9e3779b9u)); }
-inline float unit_float(std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; } // [0, 1)
+inline std::uint32_t hash(std::uint32_t a, std::uint32_t b) {
+    return hash(a ^ (hash(b) + 0x9e3779b9u));
+}
+inline float unit_float(std::uint32_t bits) {
+    return static_cast<float>(bits >> 8) * 0x1p-24f;
+} // [0, 1)
 inline glm::vec2 random_offset(std::uint32_t seed, std::uint32_t index) {
     const std::uint32_t a = hash(seed, index);
     return {unit_float(a), unit_float(hash(a))};
@@ -32,7 +37,8 @@ inline glm::vec2 random_offset(std::uint32_t seed, std::uint32_t index) {
 // Frame around a unit normal (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
 struct Frame {
     glm::vec3 x, y, z;
-    explicit Frame(glm::vec3 normal) : z(normal) {
+    explicit Frame(glm::vec3 normal)
+        : z(normal) {
         const float sign = std::copysign(1.0f, z.z);
         const float a = -1.0f / (sign + z.z), b = z.x * z.y * a;
         x = {1 + sign * z.x * z.x * a, sign * b, -sign * z.x};
@@ -41,19 +47,23 @@ struct Frame {
     glm::vec3 world(glm::vec3 v) const { return v.x * x + v.y * y + v.z * z; }
 };
 
-// Cosine-distributed direction about z: density cos(theta) / pi (Malley's method on Shirley & Chiu's concentric disk, 1997).
+// Cosine-distributed direction about z: density cos(theta) / pi (Malley's method on Shirley & Chiu's concentric disk,
+// 1997).
 inline glm::vec3 cosine_direction(glm::vec2 u) {
     const float a = 2 * u.x - 1, b = 2 * u.y - 1;
     float radius, angle;
     constexpr float quarter = 0.78539816339744831f;
     if (a == 0 && b == 0) return {0, 0, 1};
-    if (std::abs(a) > std::abs(b)) radius = a, angle = quarter * (b / a);
-    else radius = b, angle = 2 * quarter - quarter * (a / b);
+    if (std::abs(a) > std::abs(b))
+        radius = a, angle = quarter * (b / a);
+    else
+        radius = b, angle = 2 * quarter - quarter * (a / b);
     const float x = radius * std::cos(angle), y = radius * std::sin(angle);
     return {x, y, std::sqrt(std::max(1e-8f, 1 - radius * radius))};
 }
 
-// Uniform barycentric weights of a triangle's 2nd and 3rd vertex, continuous in u (Heitz 2019, "A Low-Distortion Map Between Triangle and Square").
+// Uniform barycentric weights of a triangle's 2nd and 3rd vertex, continuous in u (Heitz 2019, "A Low-Distortion Map
+// Between Triangle and Square").
 inline glm::vec2 triangle_point(glm::vec2 u) {
     if (u.y > u.x) {
         u.x *= 0.5f;

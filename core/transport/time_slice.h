@@ -13,10 +13,11 @@ namespace lueur {
 
 inline constexpr double step_seconds = 0.005;
 
-// Calls f(first, last) for blocks of [cursor, end) in parallel until the end, `step_seconds` are over, or `cancel` is set; moves the cursor
-// past what is done. What is done does not depend on the time. True at the end.
+// Calls f(first, last) for blocks of [cursor, end) in parallel until the end, `step_seconds` are over, or `cancel` is
+// set; moves the cursor past what is done. What is done does not depend on the time. True at the end.
 template <typename F>
-bool run_slice(std::uint32_t& cursor, std::uint32_t end, std::uint32_t block, const std::atomic<bool>& cancel, const F& f) {
+bool run_slice(std::uint32_t& cursor, std::uint32_t end, std::uint32_t block, const std::atomic<bool>& cancel,
+               const F& f) {
     const auto seconds_since = [](std::chrono::steady_clock::time_point then) {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
     };
@@ -30,7 +31,8 @@ bool run_slice(std::uint32_t& cursor, std::uint32_t end, std::uint32_t block, co
                           [&](const tbb::blocked_range<std::uint32_t>& range) { f(range.begin(), range.end()); });
         cursor = last;
         if (seconds_since(start) > step_seconds) break;
-        if (seconds_since(chunk_start) < 0.2 * step_seconds) chunk *= 2; // waking threads for less costs more than it gives
+        if (seconds_since(chunk_start) < 0.2 * step_seconds)
+            chunk *= 2; // waking threads for less costs more than it gives
     }
     return cursor >= end;
 }

@@ -7,10 +7,10 @@ namespace lueur {
 struct World::Embree {
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
-    std::vector<std::uint32_t> element;   // of each Embree triangle: a coarse element
-    std::vector<std::uint32_t> twin;      // its other side
+    std::vector<std::uint32_t> element; // of each Embree triangle: a coarse element
+    std::vector<std::uint32_t> twin;    // its other side
     std::vector<std::uint32_t> surface;
-    std::vector<glm::vec3> normal;        // not unit; towards the lit side
+    std::vector<glm::vec3> normal; // not unit; towards the lit side
     float epsilon = 1e-4f;
 
     ~Embree() {
@@ -19,7 +19,8 @@ struct World::Embree {
     }
 };
 
-World::World(const Mesh& mesh) : embree_(std::make_unique<Embree>()) {
+World::World(const Mesh& mesh)
+    : embree_(std::make_unique<Embree>()) {
     Embree& e = *embree_;
     e.device = rtcNewDevice(nullptr);
     e.scene = rtcNewScene(e.device);
@@ -31,16 +32,16 @@ World::World(const Mesh& mesh) : embree_(std::make_unique<Embree>()) {
         if (!mesh.coarse_back[n]) e.element.push_back(n);
     if (!e.element.empty()) {
         RTCGeometry geometry = rtcNewGeometry(e.device, RTC_GEOMETRY_TYPE_TRIANGLE);
-        auto* positions = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                                      3 * sizeof(float), mesh.coarse_vertex_count));
+        auto* positions = static_cast<float*>(rtcSetNewGeometryBuffer(
+            geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.coarse_vertex_count));
         glm::vec3 low(1e30f), high(-1e30f);
         for (std::uint32_t v = 0; v < mesh.coarse_vertex_count; ++v) {
             const glm::vec3 p = mesh.vertices[v].position;
             for (int k = 0; k < 3; ++k) positions[3 * v + k] = p[k];
             low = glm::min(low, p), high = glm::max(high, p);
         }
-        auto* triangles = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                                         3 * sizeof(unsigned), e.element.size()));
+        auto* triangles = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
+            geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), e.element.size()));
         for (std::size_t t = 0; t < e.element.size(); ++t) {
             const glm::uvec3 v = mesh.nodes[e.element[t]].vertices;
             for (int k = 0; k < 3; ++k) triangles[3 * t + k] = v[k];
@@ -61,7 +62,9 @@ World::World(const Mesh& mesh) : embree_(std::make_unique<Embree>()) {
 
 World::~World() = default;
 
-float World::epsilon() const { return embree_->epsilon; }
+float World::epsilon() const {
+    return embree_->epsilon;
+}
 
 Hit World::closest(const Ray& ray) const {
     RTCRayHit query{};

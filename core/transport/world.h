@@ -20,8 +20,9 @@ struct Ray {
 };
 
 struct Hit {
-    std::uint32_t element = no_index; // coarse element whose lit side was hit; no_index: nothing, or the black back of a one-sided surface
-    bool back_face = false;           // met the back of a one-sided surface
+    std::uint32_t element =
+        no_index; // coarse element whose lit side was hit; no_index: nothing, or the black back of a one-sided surface
+    bool back_face = false; // met the back of a one-sided surface
     float t = 1e30f;
     float b1 = 0, b2 = 0;             // barycentric weights of the element's 2nd and 3rd vertex
     std::uint32_t surface = no_index; // set also for back faces

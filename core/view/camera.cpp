@@ -28,8 +28,7 @@ CameraAxes camera_axes(const Camera& camera) {
 Ray camera_ray(const Camera& camera, double aspect, double x, double y) {
     const CameraAxes axes = camera_axes(camera);
     const double half = std::tan(camera.vertical_fov_degrees * std::numbers::pi / 360);
-    const glm::dvec3 direction =
-        axes.forward + (2 * x - 1) * aspect * half * axes.right + (1 - 2 * y) * half * axes.up;
+    const glm::dvec3 direction = axes.forward + (2 * x - 1) * aspect * half * axes.right + (1 - 2 * y) * half * axes.up;
     return {glm::vec3(camera.position), glm::vec3(glm::normalize(direction)), 0, 1e30f};
 }
 

@@ -15,7 +15,7 @@ namespace lueur {
 
 namespace {
 
-constexpr int batches = 8; // independent ray sets, whose spread is the standard error
+constexpr int batches = 8;         // independent ray sets, whose spread is the standard error
 constexpr int direct_samples = 64; // shadow rays a luminaire and batch
 
 Irradiance from_channels(const Wavelengths& wavelengths, std::vector<double> channels) {
@@ -43,14 +43,15 @@ Irradiance gather(const Solution::State& s, glm::vec3 origin, glm::vec3 normal, 
     for (int b = 0; b < batches; ++b) {
         std::vector<double> h(channels, 0);
         for (std::size_t l = 0; l < emitters.size(); ++l) {
-            const double d = direct_form_factor_sampled(*s.world, emitters[l], origin, normal, direct_samples,
-                                                        random_offset(seed + 17 * std::uint32_t(l) + 1, std::uint32_t(b)));
+            const double d =
+                direct_form_factor_sampled(*s.world, emitters[l], origin, normal, direct_samples,
+                                           random_offset(seed + 17 * std::uint32_t(l) + 1, std::uint32_t(b)));
             for (int c = 0; c < channels; ++c) h[c] += d * s.luminaire_exitance[l][c];
         }
         const glm::vec2 offset = random_offset(seed, std::uint32_t(b));
         for (int k = 0; k < per_batch; ++k) {
-            const Hit hit =
-                s.world->closest({origin, frame.world(cosine_direction(r2_point(static_cast<std::uint32_t>(k), offset)))});
+            const Hit hit = s.world->closest(
+                {origin, frame.world(cosine_direction(r2_point(static_cast<std::uint32_t>(k), offset)))});
             if (hit.element != no_index) add_reflected_radiosity(s, hit.element, hit.b1, hit.b2, 1.0 / per_batch, h);
         }
         for (int c = 0; c < channels; ++c) {
@@ -82,15 +83,17 @@ Irradiance read_field(const Solution::State& s, glm::vec3 position, glm::vec3 no
 Irradiance reference(const Solution::State& s, glm::vec3 origin, glm::vec3 normal, int paths, std::uint32_t seed,
                      const std::atomic<bool>& cancel) {
     std::array<double, batches> luminous{};
-    Irradiance result = from_channels(s.wavelengths, trace_irradiance(s, origin, normal, paths, seed, cancel, luminous));
+    Irradiance result =
+        from_channels(s.wavelengths, trace_irradiance(s, origin, normal, paths, seed, cancel, luminous));
     set_standard_error(result, luminous);
     return result;
 }
 
 } // namespace
 
-std::vector<Irradiance> measure_points(const Solution& solution, std::span<const MeasurePoint> points, const MeasureParams& params,
-                                       const std::atomic<bool>& cancel, const std::function<void(double)>& progress) {
+std::vector<Irradiance> measure_points(const Solution& solution, std::span<const MeasurePoint> points,
+                                       const MeasureParams& params, const std::atomic<bool>& cancel,
+                                       const std::function<void(double)>& progress) {
     const Solution::State& s = solution.state();
     std::vector<Irradiance> results(points.size());
     if (!s.world) return results;
@@ -102,9 +105,15 @@ std::vector<Irradiance> measure_points(const Solution& solution, std::span<const
             const glm::vec3 origin = position + s.world->epsilon() * normal;
             const std::uint32_t seed = hash(params.seed, static_cast<std::uint32_t>(i));
             switch (params.at) {
-            case MeasureAt::gather: results[i] = gather(s, origin, normal, params.rays, seed); break;
-            case MeasureAt::field: results[i] = read_field(s, position, normal); break;
-            case MeasureAt::reference: results[i] = reference(s, origin, normal, params.rays, seed, cancel); break;
+            case MeasureAt::gather:
+                results[i] = gather(s, origin, normal, params.rays, seed);
+                break;
+            case MeasureAt::field:
+                results[i] = read_field(s, position, normal);
+                break;
+            case MeasureAt::reference:
+                results[i] = reference(s, origin, normal, params.rays, seed, cancel);
+                break;
             }
         });
         if (cancel.load(std::memory_order_relaxed)) return {};

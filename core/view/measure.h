@@ -15,7 +15,7 @@ struct MeasurePoint {
 };
 
 struct Irradiance {
-    std::vector<double> channels;     // W m^-2 nm^-1, or the scene's emission unit in rgb
+    std::vector<double> channels; // W m^-2 nm^-1, or the scene's emission unit in rgb
     double illuminance_lx = 0;
     double irradiance_w_m2 = 0;
     double standard_error_percent = 0; // of the illuminance, from independent ray sets
@@ -35,7 +35,8 @@ struct MeasureParams {
 
 // `field`: a point further than 1 mm * scene scale from any surface, or facing away from it, gives NaN.
 // Cancelled: an empty vector.
-std::vector<Irradiance> measure_points(const Solution& solution, std::span<const MeasurePoint> points, const MeasureParams& params,
-                                       const std::atomic<bool>& cancel, const std::function<void(double)>& progress = {});
+std::vector<Irradiance> measure_points(const Solution& solution, std::span<const MeasurePoint> points,
+                                       const MeasureParams& params, const std::atomic<bool>& cancel,
+                                       const std::function<void(double)>& progress = {});
 
 } // namespace lueur

@@ -12,7 +12,8 @@ namespace {
 
 class Random {
 public:
-    explicit Random(std::uint32_t seed) : state_(hash(seed)) {}
+    explicit Random(std::uint32_t seed)
+        : state_(hash(seed)) {}
     float next() {
         state_ = state_ * 6364136223846793005ull + 1442695040888963407ull;
         return unit_float(hash(static_cast<std::uint32_t>(state_ >> 32)));
@@ -38,8 +39,9 @@ float direct_sample(const World& world, const Emitter& emitter, glm::vec3 origin
 
 } // namespace
 
-std::vector<double> trace_irradiance(const Solution::State& s, glm::vec3 origin, glm::vec3 normal, int paths, std::uint32_t seed,
-                                     const std::atomic<bool>& cancel, std::span<double, 8> luminous_batches) {
+std::vector<double> trace_irradiance(const Solution::State& s, glm::vec3 origin, glm::vec3 normal, int paths,
+                                     std::uint32_t seed, const std::atomic<bool>& cancel,
+                                     std::span<double, 8> luminous_batches) {
     const World& world = *s.world;
     const auto& emitters = s.direct->emitters();
     const int channels = s.wavelengths.size();
@@ -74,10 +76,12 @@ std::vector<double> trace_irradiance(const Solution::State& s, glm::vec3 origin,
             luminous_batches[batch] += y;
         };
         std::fill(throughput.begin(), throughput.end(), 1.0);
-        for (std::size_t l = 0; l < emitters.size(); ++l) // every luminaire at the point itself: its variance counts most
+        for (std::size_t l = 0; l < emitters.size();
+             ++l) // every luminaire at the point itself: its variance counts most
             if (emitters[l].area > 0) {
-                const float d = direct_sample(world, emitters[l], origin, normal,
-                                              r2_point(static_cast<std::uint32_t>(path), offset + random_offset(seed, std::uint32_t(l))));
+                const float d = direct_sample(
+                    world, emitters[l], origin, normal,
+                    r2_point(static_cast<std::uint32_t>(path), offset + random_offset(seed, std::uint32_t(l))));
                 if (d > 0) deposit(l, d);
             }
         glm::vec3 p = origin, n = normal;

@@ -73,8 +73,9 @@ std::optional<FieldPoint> field_along_ray(const FieldView& view, const Ray& orig
     return point;
 }
 
-RadianceImage render_picture(const FieldView& view, const Camera& camera, const PictureParams& params, PictureQuantity quantity,
-                             const std::atomic<bool>& cancel, const std::function<void(double)>& progress) {
+RadianceImage render_picture(const FieldView& view, const Camera& camera, const PictureParams& params,
+                             PictureQuantity quantity, const std::atomic<bool>& cancel,
+                             const std::function<void(double)>& progress) {
     RadianceImage image{params.width, params.height, {}};
     image.xyz.assign(std::size_t(params.width) * params.height, glm::vec3(0));
     const double aspect = double(params.width) / params.height;
@@ -88,13 +89,20 @@ RadianceImage render_picture(const FieldView& view, const Camera& camera, const 
             for (int x = 0; x < params.width; ++x) {
                 glm::dvec3 sum(0);
                 for (int s = 0; s < n * n; ++s) {
-                    const double u = (x + (s % n + 0.5) / n) / params.width, v = (y + (s / n + 0.5) / n) / params.height;
+                    const double u = (x + (s % n + 0.5) / n) / params.width,
+                                 v = (y + (s / n + 0.5) / n) / params.height;
                     const auto point = field_along_ray(view, camera_ray(camera, aspect, u, v));
                     if (!point) continue;
                     switch (quantity) {
-                    case PictureQuantity::colour: sum += point->radiance; break;
-                    case PictureQuantity::luminance: sum += point->radiance.y * grey; break;
-                    case PictureQuantity::illuminance: sum += point->irradiance.y * grey; break;
+                    case PictureQuantity::colour:
+                        sum += point->radiance;
+                        break;
+                    case PictureQuantity::luminance:
+                        sum += point->radiance.y * grey;
+                        break;
+                    case PictureQuantity::illuminance:
+                        sum += point->irradiance.y * grey;
+                        break;
                     }
                 }
                 image.xyz[std::size_t(y) * params.width + x] = glm::vec3(sum / double(n * n));

@@ -43,10 +43,12 @@ struct PictureParams {
 enum class PictureQuantity { colour, luminance, illuminance }; // the last two: grey pictures of Y in cd m^-2, lx
 
 // Progress goes from 0 to 1. Cancelled: an empty picture.
-RadianceImage render_picture(const FieldView& view, const Camera& camera, const PictureParams& params, PictureQuantity quantity,
-                             const std::atomic<bool>& cancel, const std::function<void(double)>& progress = {});
+RadianceImage render_picture(const FieldView& view, const Camera& camera, const PictureParams& params,
+                             PictureQuantity quantity, const std::atomic<bool>& cancel,
+                             const std::function<void(double)>& progress = {});
 
-// The ray through image coordinates (x, y) in 0..1 from the top left, for a picture of that width/height ratio. Direction is unit.
+// The ray through image coordinates (x, y) in 0..1 from the top left, for a picture of that width/height ratio.
+// Direction is unit.
 Ray camera_ray(const Camera& camera, double aspect, double x, double y);
 // The same camera for OpenGL: clip_from_world, near and far in metres.
 glm::dmat4 clip_from_world(const Camera& camera, double aspect, double near_plane, double far_plane);

@@ -2,19 +2,20 @@
 //
 //     error_against_time SCENE [POINTS]
 //
-// Truth: paths traced from random surface points (its own noise is told on stderr). Time: the solver's own, measuring not counted; for paths
-// the whole of tracing them, which gives these points and no picture. On stderr: what edits cost.
+// Truth: paths traced from random surface points (its own noise is told on stderr). Time: the solver's own, measuring
+// not counted; for paths the whole of tracing them, which gives these points and no picture. On stderr: what edits
+// cost.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
-#include <random>
 
 #include <fmt/format.h>
 
 #include "core/scene/scene_file.h"
 #include "core/solve/solution_state.h"
 #include "core/view/measure.h"
+#include "tests/support/surface_points.h"
 
 using namespace lueur;
 
@@ -24,23 +25,6 @@ const std::atomic<bool> never{false};
 
 double now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-std::vector<MeasurePoint> surface_points(const Solution& solution, int count) {
-    const Mesh& mesh = solution.state().mesh;
-    std::mt19937 random(1);
-    std::discrete_distribution<std::uint32_t> element(mesh.coarse_area.begin(), mesh.coarse_area.end());
-    std::uniform_real_distribution<float> unit(0, 1);
-    std::vector<MeasurePoint> points;
-    while (static_cast<int>(points.size()) < count) {
-        const glm::uvec3 v = mesh.nodes[element(random)].vertices;
-        float u = unit(random), w = unit(random);
-        if (u + w > 1) u = 1 - u, w = 1 - w;
-        const glm::vec3 a = mesh.vertices[v.x].position, b = mesh.vertices[v.y].position, c = mesh.vertices[v.z].position;
-        const glm::vec3 p = a + u * (b - a) + w * (c - a), n = glm::normalize(glm::cross(b - a, c - a));
-        if (!solution.world()->closest({p + 1e-5f * n, n}).back_face) points.push_back({p, n});
-    }
-    return points;
 }
 
 // Relative RMS and median error over the points brighter than 2 % of the mean, in per cent.
@@ -58,7 +42,8 @@ std::pair<double, double> errors(const std::vector<Irradiance>& values, const st
     return {std::sqrt(square), e[e.size() / 2]};
 }
 
-void watch(const Scene& scene, const char* name, const std::vector<MeasurePoint>& points, const std::vector<Irradiance>& truth) {
+void watch(const Scene& scene, const char* name, const std::vector<MeasurePoint>& points,
+           const std::vector<Irradiance>& truth) {
     Solution solution(std::make_shared<const Scene>(scene));
     double next = 0;
     bool more = true;
@@ -71,15 +56,18 @@ void watch(const Scene& scene, const char* name, const std::vector<MeasurePoint>
         next = std::max(0.004, s.seconds * 1.15);
     }
     fmt::print(stderr, "{}: settled after {:.0f} ms, estimated error {:.2f} %, {:.1f} M rays\n", name,
-               1e3 * solution.status().seconds, 100 * solution.status().estimated_error, 1e-6 * double(solution.status().rays));
+               1e3 * solution.status().seconds, 100 * solution.status().estimated_error,
+               1e-6 * double(solution.status().rays));
 }
 
 void edits(Scene scene) {
     Solution solution(std::make_shared<const Scene>(scene));
-    while (solution.step(never)) {}
+    while (solution.step(never)) {
+    }
     const auto settle = [&](SolveFrom from) {
         solution.update(std::make_shared<const Scene>(scene), from);
-        while (solution.step(never)) {}
+        while (solution.step(never)) {
+        }
         return 1e3 * solution.status().last_edit_seconds;
     };
     std::vector<double> paint, dimmer;
@@ -97,7 +85,8 @@ void edits(Scene scene) {
 } // namespace
 
 int main(int argc, char** argv) {
-    auto loaded = argc > 1 ? load_scene(argv[1]) : std::unexpected(std::vector<std::string>{"usage: error_against_time SCENE [POINTS]"});
+    auto loaded = argc > 1 ? load_scene(argv[1])
+                           : std::unexpected(std::vector<std::string>{"usage: error_against_time SCENE [POINTS]"});
     if (!loaded) {
         for (const std::string& line : loaded.error()) fmt::print(stderr, "{}\n", line);
         return 2;
@@ -105,7 +94,7 @@ int main(int argc, char** argv) {
     Scene scene = loaded->scene;
     Solution solution(std::make_shared<const Scene>(scene));
     while (!solution.world()) solution.step(never);
-    const auto points = surface_points(solution, argc > 2 ? std::atoi(argv[2]) : 500);
+    const auto points = test::surface_points(solution, argc > 2 ? std::atoi(argv[2]) : 500, 1);
     const auto truth = measure_points(solution, points, {MeasureAt::reference, 8192, 99}, never);
     double noise = 0;
     for (const Irradiance& t : truth) noise += t.standard_error_percent / double(truth.size());

@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "core/scene/surfaces.h"
 #include "core/scene/scene.h"
+#include "core/scene/surfaces.h"
 
 namespace lueur {
 

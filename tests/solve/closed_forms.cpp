@@ -21,7 +21,8 @@ double watts_per_lumen(const Solution& solution) {
 
 } // namespace
 
-// Furnace: every surface of a closed enclosure has exitance E = 1 and reflectance rho, so B = E + rho B = 1/(1-rho) everywhere.
+// Furnace: every surface of a closed enclosure has exitance E = 1 and reflectance rho, so B = E + rho B = 1/(1-rho)
+// everywhere.
 class Furnace : public ::testing::TestWithParam<double> {};
 
 TEST_P(Furnace, RadiosityIsExactAtEveryVertex) {
@@ -41,8 +42,9 @@ TEST_P(Furnace, RadiosityIsExactAtEveryVertex) {
 
 INSTANTIATE_TEST_SUITE_P(Reflectances, Furnace, ::testing::Values(0.0, 0.1, 0.5, 0.9, 0.99));
 
-// Integrating sphere, R = 1: inside a sphere F_ij = A_j / A for any i, so that a luminaire of flux Phi anywhere on its wall gives the indirect
-// irradiance rho Phi / (A (1 - rho)) everywhere. A faceted sphere of 2 x 32 x 16 triangles has 0.9 % less area; A is its own.
+// Integrating sphere, R = 1: inside a sphere F_ij = A_j / A for any i, so that a luminaire of flux Phi anywhere on its
+// wall gives the indirect irradiance rho Phi / (A (1 - rho)) everywhere. A faceted sphere of 2 x 32 x 16 triangles has
+// 0.9 % less area; A is its own.
 TEST(IntegratingSphere, IndirectIrradianceIsUniform) {
     const double rho = 0.8;
     test::SceneBuilder b;
@@ -57,9 +59,12 @@ TEST(IntegratingSphere, IndirectIrradianceIsUniform) {
         for (int i = 0; i < slices; ++i) {
             const std::string name = k == 0 ? "cap" : "wall";
             std::vector<glm::vec3> q;
-            if (k == 0) q = {point(i, 0), point(i, 1), point(i + 1, 1)};
-            else if (k == stacks - 1) q = {point(i, k), point(i, k + 1), point(i + 1, k)};
-            else q = {point(i, k), point(i, k + 1), point(i + 1, k + 1), point(i + 1, k)};
+            if (k == 0)
+                q = {point(i, 0), point(i, 1), point(i + 1, 1)};
+            else if (k == stacks - 1)
+                q = {point(i, k), point(i, k + 1), point(i + 1, k)};
+            else
+                q = {point(i, k), point(i, k + 1), point(i + 1, k + 1), point(i + 1, k)};
             const ObjectIndex o = b.polygon(name, paint, q);
             if (k == 0) cap = o;
         }
@@ -85,11 +90,12 @@ TEST(IntegratingSphere, IndirectIrradianceIsUniform) {
     EXPECT_LT(worst, 0.06); // facets: F is not exactly A_j / A between neighbours
 }
 
-// Six walls of a unit cube, each with its own E and rho, ONE constant element a wall: B solves a 6 x 6 system with F_opposite and F_adjacent (Howell
-// C-11, C-14). Here the form factors are the kept rays of all vertices of a wall, and the system is solved by the program's own sweeps.
-// (The true radiosity is not constant over a wall: in these cubes the means of the continuous solution are up to 5.6 % away from the
-// 6 x 6 one, which is what one element a wall costs: tests/view, ContinuousCube.)
-// Order of walls: floor, ceiling, left, right, front, back. B at 20 digits from the 6 x 6 system.
+// Six walls of a unit cube, each with its own E and rho, ONE constant element a wall: B solves a 6 x 6 system with
+// F_opposite and F_adjacent (Howell C-11, C-14). Here the form factors are the kept rays of all vertices of a wall, and
+// the system is solved by the program's own sweeps. (The true radiosity is not constant over a wall: in these cubes the
+// means of the continuous solution are up to 5.6 % away from the 6 x 6 one, which is what one element a wall costs:
+// tests/view, ContinuousCube.) Order of walls: floor, ceiling, left, right, front, back. B at 20 digits from the 6 x 6
+// system.
 struct CubeCase {
     const char* name;
     std::array<double, 6> E, rho, B;
@@ -118,7 +124,8 @@ TEST_P(CubeOfSixWalls, MeansOfTheWalls) {
     const std::vector<std::uint8_t> buried(mesh.coarse_vertex_count, 0);
     const std::vector<float> areas = vertex_areas(mesh);
     Receivers receivers; // each vertex its own
-    for (std::uint32_t v = 0; v < mesh.coarse_vertex_count; ++v) receivers.of_vertex.push_back(v), receivers.vertex.push_back(v);
+    for (std::uint32_t v = 0; v < mesh.coarse_vertex_count; ++v)
+        receivers.of_vertex.push_back(v), receivers.vertex.push_back(v);
     receivers.buried = buried;
     std::vector<GatherPass> traced(16, make_gather_pass(mesh, receivers));
     for (std::uint32_t p = 0; p < traced.size(); ++p)
@@ -136,8 +143,10 @@ TEST_P(CubeOfSixWalls, MeansOfTheWalls) {
     for (int i = 0; i < 6; ++i)
         for (int j = 0; j < 6; ++j) {
             F[i][j] /= area[i];
-            if (i != j) EXPECT_NEAR(F[i][j] / (i / 2 == j / 2 ? opposite : adjacent), 1, 0.005);
-            else EXPECT_EQ(F[i][j], 0);
+            if (i != j)
+                EXPECT_NEAR(F[i][j] / (i / 2 == j / 2 ? opposite : adjacent), 1, 0.005);
+            else
+                EXPECT_EQ(F[i][j], 0);
         }
 
     // The same factors as rows of six receivers, to 1/16000.
@@ -159,23 +168,31 @@ TEST_P(CubeOfSixWalls, MeansOfTheWalls) {
     GatherSystem system(6, 1, std::vector<float>(6, 1.0f));
     system.set_sources(rho, direct);
     const std::atomic<bool> never{false};
-    for (int sweep = 0; sweep < 100 && system.relative_residual() > 1e-6; ++sweep) ASSERT_TRUE(system.sweep(rows, never));
+    for (int sweep = 0; sweep < 100 && system.relative_residual() > 1e-6; ++sweep)
+        ASSERT_TRUE(system.sweep(rows, never));
     for (int f = 0; f < 6; ++f)
         EXPECT_NEAR((c.E[f] + system.radiosity()[f][0]) / c.B[f], 1, 0.005) << c.name << " wall " << f;
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    ClosedForm, CubeOfSixWalls,
-    ::testing::Values(CubeCase{"ceiling lit, 0.5", {0, 1, 0, 0, 0, 0}, {0.5, 0.5, 0.5, 0.5, 0.5, 0.5},
-                               {0.18174582610778848, 1.0909090981076955, 0.18183626894612901, 0.18183626894612901,
-                                0.18183626894612901, 0.18183626894612901}},
-                      CubeCase{"ceiling lit, 0.8", {0, 1, 0, 0, 0, 0}, {0.8, 0.8, 0.8, 0.8, 0.8, 0.8},
-                               {0.68955107073763763, 1.5517241536449146, 0.6896811939043619, 0.6896811939043619,
-                                0.6896811939043619, 0.6896811939043619}},
-                      CubeCase{"mixed", {0, 10, 0, 0, 1, 0}, {0.2, 0.7, 0.5, 0.5, 0.3, 0.9},
-                               {0.834251, 11.436819, 1.972785, 1.972785, 2.171649, 3.310189}},
-                      CubeCase{"two lights", {5, 3, 0, 0, 0, 0}, {0.6, 0.1, 0.45, 0.55, 0.65, 0.35},
-                               {6.016536, 3.2252, 1.196478, 1.436034, 1.667119, 0.947976}}));
+INSTANTIATE_TEST_SUITE_P(ClosedForm, CubeOfSixWalls,
+                         ::testing::Values(CubeCase{"ceiling lit, 0.5",
+                                                    {0, 1, 0, 0, 0, 0},
+                                                    {0.5, 0.5, 0.5, 0.5, 0.5, 0.5},
+                                                    {0.18174582610778848, 1.0909090981076955, 0.18183626894612901,
+                                                     0.18183626894612901, 0.18183626894612901, 0.18183626894612901}},
+                                           CubeCase{"ceiling lit, 0.8",
+                                                    {0, 1, 0, 0, 0, 0},
+                                                    {0.8, 0.8, 0.8, 0.8, 0.8, 0.8},
+                                                    {0.68955107073763763, 1.5517241536449146, 0.6896811939043619,
+                                                     0.6896811939043619, 0.6896811939043619, 0.6896811939043619}},
+                                           CubeCase{"mixed",
+                                                    {0, 10, 0, 0, 1, 0},
+                                                    {0.2, 0.7, 0.5, 0.5, 0.3, 0.9},
+                                                    {0.834251, 11.436819, 1.972785, 1.972785, 2.171649, 3.310189}},
+                                           CubeCase{"two lights",
+                                                    {5, 3, 0, 0, 0, 0},
+                                                    {0.6, 0.1, 0.45, 0.55, 0.65, 0.35},
+                                                    {6.016536, 3.2252, 1.196478, 1.436034, 1.667119, 0.947976}}));
 
 // A closed scene that absorbs nothing has no finite radiosity: said before the first sweep, never iterated.
 TEST(Stability, ReflectanceOneInAClosedBoxIsRefused) {

@@ -10,21 +10,6 @@
 
 using namespace lueur;
 
-namespace {
-
-// Relative RMS difference of the irradiance of two fields on the same mesh.
-double difference(const Field& a, const Field& b) {
-    double square = 0, norm = 0;
-    for (std::size_t v = 0; v < a.irradiance_xyz.size(); ++v) {
-        const glm::dvec3 d = glm::dvec3(a.irradiance_xyz[v]) - glm::dvec3(b.irradiance_xyz[v]);
-        square += glm::dot(d, d);
-        norm += glm::dot(glm::dvec3(b.irradiance_xyz[v]), glm::dvec3(b.irradiance_xyz[v]));
-    }
-    return std::sqrt(square / norm);
-}
-
-} // namespace
-
 TEST(Gathering, ResidualNeverGrows) {
     const Solution solution = test::solved(test::small_room());
     const Solution::State& s = solution.state();
@@ -32,7 +17,8 @@ TEST(Gathering, ResidualNeverGrows) {
     std::mt19937 random(3);
     std::uniform_real_distribution<float> unit(0, 1);
     for (std::uint32_t i = 0; i < rho.count; ++i)
-        for (int c = 0; c < 31; ++c) rho[i][c] = 0.99f * unit(random), direct[i][c] = unit(random) < 0.01f ? 100.0f : 0.0f;
+        for (int c = 0; c < 31; ++c)
+            rho[i][c] = 0.99f * unit(random), direct[i][c] = unit(random) < 0.01f ? 100.0f : 0.0f;
     const std::vector<float> area(rho.count, 1.0f);
     GatherSystem system(rho.count, 31, area);
     system.set_sources(rho, direct);
@@ -75,16 +61,19 @@ TEST(Gathering, CancelledStepsLeaveAValidState) {
     const std::atomic<bool> never{false}, always{true};
     int steps = 0;
     while (true) {
-        if (steps++ % 3 == 0) cut.step(always);
-        else if (!cut.step(never)) break;
+        if (steps++ % 3 == 0)
+            cut.step(always);
+        else if (!cut.step(never))
+            break;
         ASSERT_LT(steps, 100000);
     }
     const Solution whole = test::solved(scene);
     ASSERT_EQ(cut.mesh()->vertices.size(), whole.mesh()->vertices.size());
-    EXPECT_LT(difference(*cut.field(), *whole.field()), 1e-3);
+    EXPECT_LT(test::field_difference(*cut.field(), *whole.field()), 1e-3);
 }
 
-// The heart of the editor: any sequence of edits, also in the middle of a solve, settles where a fresh solve of the same scene settles.
+// The heart of the editor: any sequence of edits, also in the middle of a solve, settles where a fresh solve of the
+// same scene settles.
 TEST(Gathering, RandomEditsSettleWhereAFreshSolveDoes) {
     std::mt19937 random(42);
     const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); };
@@ -97,16 +86,27 @@ TEST(Gathering, RandomEditsSettleWhereAFreshSolveDoes) {
         for (int edit = 0; edit < 5; ++edit) {
             SolveFrom from = SolveFrom::reflectance;
             switch (pick(5)) {
-            case 0: scene.materials[pick(scene.materials.size())].reflectance = uniform(0, 0.95); break;
-            case 1: scene.materials[pick(scene.materials.size())].reflectance = Rgb(uniform(0, 1), uniform(0, 1), uniform(0, 1)); break;
-            case 2: scene.luminaires[pick(2)].dimmer = uniform(0, 1.5), from = SolveFrom::sources; break;
-            case 3: scene.luminaires[pick(2)].spectrum = Blackbody{uniform(1800, 9000)}, from = SolveFrom::sources; break;
+            case 0:
+                scene.materials[pick(scene.materials.size())].reflectance = uniform(0, 0.95);
+                break;
+            case 1:
+                scene.materials[pick(scene.materials.size())].reflectance =
+                    Rgb(uniform(0, 1), uniform(0, 1), uniform(0, 1));
+                break;
+            case 2:
+                scene.luminaires[pick(2)].dimmer = uniform(0, 1.5), from = SolveFrom::sources;
+                break;
+            case 3:
+                scene.luminaires[pick(2)].spectrum = Blackbody{uniform(1800, 9000)}, from = SolveFrom::sources;
+                break;
             default:
-                scene.solve.wavelengths = pick(2) ? WavelengthsSpec{WavelengthRule::uniform, 31} : WavelengthsSpec{WavelengthRule::rgb, 3};
+                scene.solve.wavelengths =
+                    pick(2) ? WavelengthsSpec{WavelengthRule::uniform, 31} : WavelengthsSpec{WavelengthRule::rgb, 3};
                 break;
             }
             edited.update(std::make_shared<const Scene>(scene), from);
-            for (std::size_t steps = pick(12); steps > 0 && edited.step(never); --steps) {}
+            for (std::size_t steps = pick(12); steps > 0 && edited.step(never); --steps) {
+            }
         }
         if (round % 4 != 3) continue;
         test::settle(edited);
@@ -114,11 +114,12 @@ TEST(Gathering, RandomEditsSettleWhereAFreshSolveDoes) {
         ASSERT_TRUE(edited.status().settled) << edited.status().message;
         ASSERT_EQ(edited.mesh()->vertices.size(), fresh.mesh()->vertices.size());
         EXPECT_EQ(edited.status().rays_per_receiver, fresh.status().rays_per_receiver);
-        EXPECT_LT(difference(*edited.field(), *fresh.field()), 1e-3) << "round " << round;
+        EXPECT_LT(test::field_difference(*edited.field(), *fresh.field()), 1e-3) << "round " << round;
     }
 }
 
-// Flux balance of the whole: what luminaires emit is what surfaces absorb and what leaves the scene (nothing, in a closed room).
+// Flux balance of the whole: what luminaires emit is what surfaces absorb and what leaves the scene (nothing, in a
+// closed room).
 TEST(Gathering, EnergyIsKeptInAClosedRoom) {
     Scene scene = test::small_room();
     scene.solve.target_error = 0.01;
@@ -131,7 +132,8 @@ TEST(Gathering, EnergyIsKeptInAClosedRoom) {
     for (std::size_t v = 0; v < vertices; ++v)
         if (!s.direct->buried()[v] && !(v < s.buried.size() && s.buried[v]))
             absorbed += areas[v] * (field->irradiance_xyz[v].y - M_PI * field->reflected_xyz[v].y);
-    EXPECT_NEAR(absorbed / solution.status().emitted_lumens, 1, 0.03); // lamp backs and elements under the block: a few per cent
+    EXPECT_NEAR(absorbed / solution.status().emitted_lumens, 1,
+                0.03); // lamp backs and elements under the block: a few per cent
 }
 
 TEST(Shooting, UnshotFluxFallsWithEveryShot) {
@@ -172,7 +174,7 @@ TEST(Shooting, FurnaceAndGatheringAgree) {
     ASSERT_TRUE(shot.status().settled);
     EXPECT_GT(shot.status().shots, 100u);
     ASSERT_EQ(shot.mesh()->vertices.size(), gathered.mesh()->vertices.size());
-    EXPECT_LT(difference(*shot.field(), *gathered.field()), 0.04);
+    EXPECT_LT(test::field_difference(*shot.field(), *gathered.field()), 0.04);
 }
 
 TEST(Shooting, LuminairesShootFirstAndTheAmbientTermFillsIn) {

@@ -110,8 +110,8 @@ TEST(Wavelengths, OutsideItsGridAPaintGoesOnAndALampEnds) {
 }
 
 TEST(Wavelengths, ThirtyOneChannelsOfPaintUnderALampAreNearThe1NmIntegral) {
-    // The means under hats blur lamp and paint by 10 nm each. Of its own luminance that costs the measured white paint at
-    // most 0.2 %, and the red one, dark with a steep edge at 600 nm, 1 %.
+    // The means under hats blur lamp and paint by 10 nm each. Of its own luminance that costs the measured white paint
+    // at most 0.2 %, and the red one, dark with a steep edge at 600 nm, 1 %.
     const Wavelengths w = uniform(31);
     for (const double kelvin : {2856.0, 5000.0}) {
         const Spectrum lamp = blackbody(kelvin);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -30,7 +31,8 @@ public:
         return object;
     }
     // Axis-aligned box; inward: a room, each face its own object "name floor", ...; else one solid object.
-    std::array<ObjectIndex, 6> room(const std::string& name, std::array<MaterialIndex, 6> materials, glm::vec3 low, glm::vec3 high) {
+    std::array<ObjectIndex, 6> room(const std::string& name, std::array<MaterialIndex, 6> materials, glm::vec3 low,
+                                    glm::vec3 high) {
         std::array<ObjectIndex, 6> faces{};
         static const char* names[6] = {"floor", "ceiling", "left", "right", "front", "back"};
         for (int f = 0; f < 6; ++f) faces[f] = polygon(name + " " + names[f], materials[f], face(f, low, high, true));
@@ -64,12 +66,24 @@ private:
     static std::vector<glm::vec3> face(int f, glm::vec3 a, glm::vec3 b, bool inward) {
         std::vector<glm::vec3> v;
         switch (f) {
-        case 0: v = {{a.x, a.y, a.z}, {a.x, a.y, b.z}, {b.x, a.y, b.z}, {b.x, a.y, a.z}}; break;
-        case 1: v = {{a.x, b.y, a.z}, {b.x, b.y, a.z}, {b.x, b.y, b.z}, {a.x, b.y, b.z}}; break;
-        case 2: v = {{a.x, a.y, a.z}, {a.x, b.y, a.z}, {a.x, b.y, b.z}, {a.x, a.y, b.z}}; break;
-        case 3: v = {{b.x, a.y, a.z}, {b.x, a.y, b.z}, {b.x, b.y, b.z}, {b.x, b.y, a.z}}; break;
-        case 4: v = {{a.x, a.y, a.z}, {b.x, a.y, a.z}, {b.x, b.y, a.z}, {a.x, b.y, a.z}}; break;
-        default: v = {{a.x, a.y, b.z}, {a.x, b.y, b.z}, {b.x, b.y, b.z}, {b.x, a.y, b.z}}; break;
+        case 0:
+            v = {{a.x, a.y, a.z}, {a.x, a.y, b.z}, {b.x, a.y, b.z}, {b.x, a.y, a.z}};
+            break;
+        case 1:
+            v = {{a.x, b.y, a.z}, {b.x, b.y, a.z}, {b.x, b.y, b.z}, {a.x, b.y, b.z}};
+            break;
+        case 2:
+            v = {{a.x, a.y, a.z}, {a.x, b.y, a.z}, {a.x, b.y, b.z}, {a.x, a.y, b.z}};
+            break;
+        case 3:
+            v = {{b.x, a.y, a.z}, {b.x, a.y, b.z}, {b.x, b.y, b.z}, {b.x, b.y, a.z}};
+            break;
+        case 4:
+            v = {{a.x, a.y, a.z}, {b.x, a.y, a.z}, {b.x, b.y, a.z}, {a.x, b.y, a.z}};
+            break;
+        default:
+            v = {{a.x, a.y, b.z}, {a.x, b.y, b.z}, {b.x, b.y, b.z}, {b.x, a.y, b.z}};
+            break;
         }
         if (!inward) std::swap(v[1], v[3]);
         return v;
@@ -78,7 +92,9 @@ private:
     TriangleSoup soup_;
 };
 
-inline std::array<MaterialIndex, 6> all(MaterialIndex m) { return {m, m, m, m, m, m}; }
+inline std::array<MaterialIndex, 6> all(MaterialIndex m) {
+    return {m, m, m, m, m, m};
+}
 
 // Unit cube whose six faces all have exitance 1 W/m2 and reflectance rho: B = 1 / (1 - rho) everywhere.
 inline Scene furnace(double rho) {
@@ -95,8 +111,10 @@ inline Scene small_room() {
                         green = b.material("green", Rgb(0.1, 0.4, 0.1)), grey = b.material("grey", 0.4);
     b.room("room", {white, white, red, green, white, white}, glm::vec3(0), glm::vec3(3, 2.5f, 4));
     b.block("block", grey, {1, 0, 1.5f}, {1.8f, 0.9f, 2.3f});
-    const ObjectIndex lamp = b.polygon("lamp", grey, {{1, 2.45f, 1}, {1.6f, 2.45f, 1}, {1.6f, 2.45f, 1.4f}, {1, 2.45f, 1.4f}});
-    const ObjectIndex spot = b.polygon("spot", grey, {{2.4f, 2.4f, 3}, {2.5f, 2.4f, 3}, {2.5f, 2.4f, 3.1f}, {2.4f, 2.4f, 3.1f}});
+    const ObjectIndex lamp =
+        b.polygon("lamp", grey, {{1, 2.45f, 1}, {1.6f, 2.45f, 1}, {1.6f, 2.45f, 1.4f}, {1, 2.45f, 1.4f}});
+    const ObjectIndex spot =
+        b.polygon("spot", grey, {{2.4f, 2.4f, 3}, {2.5f, 2.4f, 3}, {2.5f, 2.4f, 3.1f}, {2.4f, 2.4f, 3.1f}});
     b.light("lamp", {lamp}, PowerUnit::lumen, 3000, Blackbody{2700});
     b.light("spot", {spot}, PowerUnit::lumen, 800, Blackbody{5000});
     return b.build();
@@ -104,13 +122,25 @@ inline Scene small_room() {
 
 inline void settle(Solution& solution) {
     const std::atomic<bool> never{false};
-    while (solution.step(never)) {}
+    while (solution.step(never)) {
+    }
 }
 
 inline Solution solved(Scene scene) {
     Solution solution(std::make_shared<const Scene>(std::move(scene)));
     settle(solution);
     return solution;
+}
+
+// Relative RMS difference of the irradiance of two fields on the same mesh.
+inline double field_difference(const Field& a, const Field& b) {
+    double square = 0, norm = 0;
+    for (std::size_t v = 0; v < a.irradiance_xyz.size(); ++v) {
+        const glm::dvec3 d = glm::dvec3(a.irradiance_xyz[v]) - glm::dvec3(b.irradiance_xyz[v]);
+        square += glm::dot(d, d);
+        norm += glm::dot(glm::dvec3(b.irradiance_xyz[v]), glm::dvec3(b.irradiance_xyz[v]));
+    }
+    return norm > 0 ? std::sqrt(square / norm) : std::sqrt(square);
 }
 
 } // namespace lueur::test

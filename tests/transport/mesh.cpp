@@ -41,7 +41,8 @@ TEST(Mesh, UnitCubeKeepsItsAreaAndHasNoTVertices) {
         expect_conforming(mesh, 24);
         for (const glm::uvec3& e : mesh.elements)
             for (int k = 0; k < 3; ++k)
-                EXPECT_LE(glm::distance(mesh.vertices[e[k]].position, mesh.vertices[e[(k + 1) % 3]].position), size + 1e-5);
+                EXPECT_LE(glm::distance(mesh.vertices[e[k]].position, mesh.vertices[e[(k + 1) % 3]].position),
+                          size + 1e-5);
     }
 }
 

@@ -40,8 +40,8 @@ TEST(World, HitsTheLitSideAndTellsBackFaces) {
     EXPECT_FALSE(world.closest({{5, 5, 5}, {0, 1, 0}}).any());
     // Barycentric weights give the hit point back.
     const glm::uvec3 v = mesh.nodes[inside.element].vertices;
-    const glm::vec3 p = (1 - inside.b1 - inside.b2) * mesh.vertices[v.x].position + inside.b1 * mesh.vertices[v.y].position +
-                        inside.b2 * mesh.vertices[v.z].position;
+    const glm::vec3 p = (1 - inside.b1 - inside.b2) * mesh.vertices[v.x].position +
+                        inside.b1 * mesh.vertices[v.y].position + inside.b2 * mesh.vertices[v.z].position;
     EXPECT_LT(glm::distance(p, glm::vec3(0.5f, 0, 0.5f)), 1e-5);
 }
 
@@ -72,7 +72,8 @@ TEST(GatherRows, SumToOneInAClosedScene) {
     trace_gather_rays(world, mesh, origins, receivers, buried, 1, 0, 0, mesh.coarse_vertex_count, pass);
     int lost = 0;
     for (std::uint32_t i = 0; i < mesh.coarse_vertex_count; ++i)
-        if (!buried[i]) lost += static_cast<int>((1 - row_sum({pass}, i, mesh.coarse_vertex_count)) * rays_per_pass + 0.5);
+        if (!buried[i])
+            lost += static_cast<int>((1 - row_sum({pass}, i, mesh.coarse_vertex_count)) * rays_per_pass + 0.5);
     // The two lamps show their black backs to a strip of the ceiling; nothing else may be lost.
     EXPECT_LT(double(lost) / (double(mesh.coarse_vertex_count) * rays_per_pass), 0.02);
 
@@ -95,7 +96,8 @@ TEST(GatherRows, AreTheSameWhateverTheChunks) {
     const Receivers receivers = every_vertex(mesh, buried);
     GatherPass a = make_gather_pass(mesh, receivers), b = a, other = a;
     trace_gather_rays(world, mesh, origins, receivers, buried, 5, 2, 0, mesh.coarse_vertex_count, a);
-    for (std::uint32_t i = 0; i < mesh.coarse_vertex_count; ++i) trace_gather_rays(world, mesh, origins, receivers, buried, 5, 2, i, i + 1, b);
+    for (std::uint32_t i = 0; i < mesh.coarse_vertex_count; ++i)
+        trace_gather_rays(world, mesh, origins, receivers, buried, 5, 2, i, i + 1, b);
     trace_gather_rays(world, mesh, origins, receivers, buried, 6, 2, 0, mesh.coarse_vertex_count, other);
     EXPECT_EQ(a.ends, b.ends);
     EXPECT_NE(a.ends, other.ends);
@@ -123,7 +125,8 @@ TEST(GatherRows, MeasureFormFactors) {
     ceiling /= passes * rays_per_pass;
     const glm::dvec3 top[4] = {{0, 1, 0}, {1, 1, 0}, {1, 1, 1}, {0, 1, 1}};
     const double exact = polygon_form_factor({0.5, 0, 0.5}, {0, 1, 0}, top);
-    EXPECT_NEAR(exact, 4 / (2 * std::numbers::pi) * 2 * 0.5 / std::sqrt(1.25) * std::atan(0.5 / std::sqrt(1.25)), 1e-9); // Howell B-3
+    EXPECT_NEAR(exact, 4 / (2 * std::numbers::pi) * 2 * 0.5 / std::sqrt(1.25) * std::atan(0.5 / std::sqrt(1.25)),
+                1e-9); // Howell B-3
     EXPECT_NEAR(ceiling, exact, 3 * std::sqrt(exact * (1 - exact) / (passes * rays_per_pass)));
 }
 
@@ -165,7 +168,8 @@ TEST(DirectLight, WhollySeenIsTheExactFormFactor) {
 TEST(DirectLight, HalfHiddenLampGivesHalf) {
     test::SceneBuilder b;
     const MaterialIndex grey = b.material("grey", 0.5);
-    const ObjectIndex lamp = b.polygon("lamp", grey, {{-0.5f, 2, -0.5f}, {0.5f, 2, -0.5f}, {0.5f, 2, 0.5f}, {-0.5f, 2, 0.5f}});
+    const ObjectIndex lamp =
+        b.polygon("lamp", grey, {{-0.5f, 2, -0.5f}, {0.5f, 2, -0.5f}, {0.5f, 2, 0.5f}, {-0.5f, 2, 0.5f}});
     // A screen that covers x < 0 as seen from the origin.
     b.polygon("screen", b.material("card", 0.5, true), {{-2, 1, -2}, {0, 1, -2}, {0, 1, 2}, {-2, 1, 2}});
     b.light("lamp", {lamp}, PowerUnit::lumen, 100);
@@ -176,7 +180,8 @@ TEST(DirectLight, HalfHiddenLampGivesHalf) {
     const glm::dvec3 half[4] = {{0, 2, -0.5}, {0.5, 2, -0.5}, {0.5, 2, 0.5}, {0, 2, 0.5}};
     const double exact = polygon_form_factor({0, 0, 0}, {0, 1, 0}, half);
     EXPECT_NEAR(direct_form_factor(world, emitter, glm::vec3(0), {0, 1, 0}, rays) / exact, 1, 0.04);
-    EXPECT_NEAR(direct_form_factor_sampled(world, emitter, glm::vec3(0), {0, 1, 0}, 4096, {0.1f, 0.7f}) / exact, 1, 0.005);
+    EXPECT_NEAR(direct_form_factor_sampled(world, emitter, glm::vec3(0), {0, 1, 0}, 4096, {0.1f, 0.7f}) / exact, 1,
+                0.005);
     EXPECT_EQ(direct_form_factor(world, emitter, glm::vec3(-1.2f, 0.9f, 0), {0, 1, 0}, rays), 0);
 }
 
@@ -216,9 +221,11 @@ TEST(Receivers, StandForCloseVerticesThatLookTheSameWay) {
         ASSERT_EQ(receivers.of_vertex[w], r);
         EXPECT_LT(glm::distance(mesh.vertices[v].position, mesh.vertices[w].position), 0.4f * 1.74f);
         EXPECT_GT(glm::dot(mesh.vertices[v].normal, mesh.vertices[w].normal), 0.7f);
-        EXPECT_EQ(scene.geometry->surfaces[mesh.vertices[v].surface].object, scene.geometry->surfaces[mesh.vertices[w].surface].object);
+        EXPECT_EQ(scene.geometry->surfaces[mesh.vertices[v].surface].object,
+                  scene.geometry->surfaces[mesh.vertices[w].surface].object);
         EXPECT_EQ(buried[v], buried[w]);
         EXPECT_EQ(buried[v], receivers.buried[r]);
     }
-    EXPECT_EQ(make_receivers(scene, mesh, buried, 1e-4f).count(), mesh.coarse_vertex_count); // small cells: each its own
+    EXPECT_EQ(make_receivers(scene, mesh, buried, 1e-4f).count(),
+              mesh.coarse_vertex_count); // small cells: each its own
 }

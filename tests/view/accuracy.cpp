@@ -1,7 +1,6 @@
 // The field and the gathering at points against traced paths, and pictures against the field.
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include <gtest/gtest.h>
 
@@ -10,31 +9,13 @@
 #include "core/view/measure.h"
 #include "core/view/picture.h"
 #include "tests/support/scenes.h"
+#include "tests/support/surface_points.h"
 
 using namespace lueur;
 
 namespace {
 
 const std::atomic<bool> never{false};
-
-// Random points by area on the lit sides, not inside solids (of whose hemisphere the rays meet black back faces).
-std::vector<MeasurePoint> surface_points(const Solution& solution, int count, std::uint32_t seed) {
-    const Mesh& mesh = solution.state().mesh;
-    std::mt19937 random(seed);
-    std::discrete_distribution<std::uint32_t> element(mesh.coarse_area.begin(), mesh.coarse_area.end());
-    std::uniform_real_distribution<float> unit(0, 1);
-    std::vector<MeasurePoint> points;
-    while (static_cast<int>(points.size()) < count) {
-        const glm::uvec3 v = mesh.nodes[element(random)].vertices;
-        float u = unit(random), w = unit(random);
-        if (u + w > 1) u = 1 - u, w = 1 - w;
-        const glm::vec3 a = mesh.vertices[v.x].position, b = mesh.vertices[v.y].position, c = mesh.vertices[v.z].position;
-        const glm::vec3 p = a + u * (b - a) + w * (c - a), n = glm::normalize(glm::cross(b - a, c - a));
-        if (solution.world()->closest({p + 1e-5f * n, n}).back_face) continue;
-        points.push_back({p, n});
-    }
-    return points;
-}
 
 struct Errors {
     double rms = 0, median = 0, worst_point = 0;
@@ -61,21 +42,24 @@ Errors relative_errors(const std::vector<Irradiance>& values, const std::vector<
 
 } // namespace
 
-// 1,000 random surface points of the measured Cornell box: 5 % RMS, 1.5 % median, both for what the window shows and for gathering at points.
+// 1,000 random surface points of the measured Cornell box: 5 % RMS, 1.5 % median, both for what the window shows and
+// for gathering at points.
 TEST(Accuracy, CornellBoxAgainstTracedPaths) {
     auto loaded = load_scene(std::filesystem::path(LUEUR_SOURCE_DIR) / "assets/cornell.toml");
     ASSERT_TRUE(loaded) << loaded.error().front();
     Solution solution(std::make_shared<const Scene>(loaded->scene));
     test::settle(solution);
     ASSERT_TRUE(solution.status().settled);
-    const auto points = surface_points(solution, 1000, 1);
+    const auto points = test::surface_points(solution, 1000, 1);
     // 4,096 paths leave about 1 % noise at a point, which counts against us.
     const auto truth = measure_points(solution, points, {MeasureAt::reference, 4096, 9}, never);
     const Errors field = relative_errors(measure_points(solution, points, {MeasureAt::field, 0, 1}, never), truth);
     const Errors gather = relative_errors(measure_points(solution, points, {MeasureAt::gather, 1024, 1}, never), truth);
     RecordProperty("field_rms_percent", std::to_string(100 * field.rms));
-    printf("Cornell box, %d points: field %.2f %% RMS, %.2f %% median, %.0f %% worst; gathering %.2f %% RMS, %.2f %% median\n",
-           field.counted, 100 * field.rms, 100 * field.median, 100 * field.worst_point, 100 * gather.rms, 100 * gather.median);
+    printf("Cornell box, %d points: field %.2f %% RMS, %.2f %% median, %.0f %% worst; gathering %.2f %% RMS, %.2f %% "
+           "median\n",
+           field.counted, 100 * field.rms, 100 * field.median, 100 * field.worst_point, 100 * gather.rms,
+           100 * gather.median);
     EXPECT_GT(field.counted, 900);
     EXPECT_LT(field.rms, 0.05);
     EXPECT_LT(field.median, 0.015);
@@ -83,8 +67,9 @@ TEST(Accuracy, CornellBoxAgainstTracedPaths) {
     EXPECT_LT(gather.median, 0.015);
 }
 
-// A cube lit by its ceiling, rho = 0.8: radiosity with gradients agrees with traced paths on the mean of a wall. One constant element a wall (the
-// 6 x 6 closed form, tests/solve) is 2 to 6 % away from both: its assumption, not its arithmetic, is wrong.
+// A cube lit by its ceiling, rho = 0.8: radiosity with gradients agrees with traced paths on the mean of a wall. One
+// constant element a wall (the 6 x 6 closed form, tests/solve) is 2 to 6 % away from both: its assumption, not its
+// arithmetic, is wrong.
 TEST(Accuracy, ContinuousCubeAgreesWithPathsAndNotWithOneElementAWall) {
     test::SceneBuilder b;
     const auto faces = b.room("cube", test::all(b.material("wall", 0.8)), glm::vec3(0), glm::vec3(1));
@@ -95,7 +80,8 @@ TEST(Accuracy, ContinuousCubeAgreesWithPathsAndNotWithOneElementAWall) {
         for (int k = 0; k < 12; ++k) floor.push_back({{(i + 0.5) / 12, 0, (k + 0.5) / 12}, {0, 1, 0}});
     const auto mean = [&](const MeasureParams& params) {
         double sum = 0;
-        for (const Irradiance& h : measure_points(solution, floor, params, never)) sum += h.irradiance_w_m2 / double(floor.size());
+        for (const Irradiance& h : measure_points(solution, floor, params, never))
+            sum += h.irradiance_w_m2 / double(floor.size());
         return sum;
     };
     const double traced = mean({MeasureAt::reference, 2048, 3}), one_element_a_wall = 0.86193883842204693;
@@ -107,7 +93,8 @@ TEST(Accuracy, ContinuousCubeAgreesWithPathsAndNotWithOneElementAWall) {
 // The path tracer itself, where the answer is known: a furnace, 1 / (1 - rho).
 TEST(PathTracer, Furnace) {
     const Solution solution = test::solved(test::furnace(0.5));
-    const std::vector<MeasurePoint> points{{{0.5, 0, 0.5}, {0, 1, 0}}, {{0.1, 0, 0.05}, {0, 1, 0}}, {{1, 0.3, 0.6}, {-1, 0, 0}}};
+    const std::vector<MeasurePoint> points{
+        {{0.5, 0, 0.5}, {0, 1, 0}}, {{0.1, 0, 0.05}, {0, 1, 0}}, {{1, 0.3, 0.6}, {-1, 0, 0}}};
     for (const Irradiance& h : measure_points(solution, points, {MeasureAt::reference, 20000, 1}, never)) {
         EXPECT_NEAR(h.irradiance_w_m2, 2, 0.04);
         EXPECT_GT(h.standard_error_percent, 0);
@@ -121,8 +108,9 @@ TEST(PathTracer, Furnace) {
 
 TEST(Measure, OffTheSurfaceTheFieldIsNotANumber) {
     const Solution solution = test::solved(test::furnace(0.5));
-    const auto h = measure_points(solution, std::vector<MeasurePoint>{{{0.5, 0.5, 0.5}, {0, 1, 0}}, {{0.5, 0, 0.5}, {0, -1, 0}}},
-                                  {MeasureAt::field, 0, 1}, never);
+    const auto h =
+        measure_points(solution, std::vector<MeasurePoint>{{{0.5, 0.5, 0.5}, {0, 1, 0}}, {{0.5, 0, 0.5}, {0, -1, 0}}},
+                       {MeasureAt::field, 0, 1}, never);
     EXPECT_TRUE(std::isnan(h[0].illuminance_lx));
     EXPECT_TRUE(std::isnan(h[1].illuminance_lx));
 }
@@ -149,7 +137,8 @@ TEST(Picture, FurnaceIsOneColour) {
     EXPECT_TRUE(render_picture(view, camera, {64, 40, 2}, PictureQuantity::colour, always).xyz.empty());
 }
 
-// Texel / mean: a checkerboard of 0.2 and 0.6 with mean 0.4 halves and raises what the mean reflects; the solution does not change.
+// Texel / mean: a checkerboard of 0.2 and 0.6 with mean 0.4 halves and raises what the mean reflects; the solution does
+// not change.
 TEST(Picture, TexturesModulateTheMean) {
     Scene scene = test::furnace(0.4);
     auto image = std::make_shared<TextureImage>();
@@ -159,7 +148,7 @@ TEST(Picture, TexturesModulateTheMean) {
     const Xyz reflected(95, 100, 109);
     EXPECT_NEAR(textured(scene.materials[0], {0.25f, 0.5f}, reflected).y, 50, 1e-3);
     EXPECT_NEAR(textured(scene.materials[0], {0.75f, 0.5f}, reflected).y, 150, 1e-3);
-    EXPECT_NEAR(textured(scene.materials[0], {0.5f, 0.5f}, reflected).y, 100, 1e-3);  // between two texels
+    EXPECT_NEAR(textured(scene.materials[0], {0.5f, 0.5f}, reflected).y, 100, 1e-3);   // between two texels
     EXPECT_NEAR(textured(scene.materials[0], {-0.25f, 3.5f}, reflected).y, 150, 1e-3); // repeats
     scene.materials[0].texture->mean = Rgb(0);
     EXPECT_EQ(textured(scene.materials[0], {0.25f, 0.5f}, reflected).y, 0); // a black mean shows black, not infinity

@@ -1,5 +1,5 @@
-// The worker: edits while it solves are safe, end where a fresh solve ends, and cost nothing when there is nothing to do.
-// Runs under ThreadSanitizer too (tests/run).
+// The worker: edits while it solves are safe, end where a fresh solve ends, and cost nothing when there is nothing to
+// do. Runs under ThreadSanitizer too (tests/run).
 #include <chrono>
 #include <cmath>
 #include <ctime>
@@ -32,37 +32,37 @@ Scene quick_room() {
     return scene;
 }
 
-double difference(const Field& a, const Field& b) {
-    double square = 0, norm = 0;
-    for (std::size_t v = 0; v < a.irradiance_xyz.size(); ++v) {
-        const glm::dvec3 d = glm::dvec3(a.irradiance_xyz[v]) - glm::dvec3(b.irradiance_xyz[v]);
-        square += glm::dot(d, d);
-        norm += glm::dot(glm::dvec3(b.irradiance_xyz[v]), glm::dvec3(b.irradiance_xyz[v]));
-    }
-    return norm > 0 ? std::sqrt(square / norm) : std::sqrt(square);
+double cpu_seconds() {
+    return double(std::clock()) / CLOCKS_PER_SEC;
 }
-
-double cpu_seconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
 
 class RandomEdits {
 public:
-    explicit RandomEdits(std::uint32_t seed) : random_(seed) {}
+    explicit RandomEdits(std::uint32_t seed)
+        : random_(seed) {}
     Edit next(const Scene& scene) {
         const auto material = static_cast<MaterialIndex>(pick(scene.materials.size()));
         const auto luminaire = static_cast<LuminaireIndex>(pick(scene.luminaires.size()));
         switch (pick(9)) {
-        case 0: return SetReflectance{material, uniform(0, 0.95)};
-        case 1: return SetReflectance{material, Rgb(uniform(0, 0.9), uniform(0, 0.9), uniform(0, 0.9))};
-        case 2: return SetDimmer{luminaire, uniform(0, 1.5)};
-        case 3: return SetEmissionSpectrum{luminaire, Blackbody{uniform(1800, 8000)}};
-        case 4: return SetPower{luminaire, PowerUnit::lumen, uniform(100, 4000)};
-        case 5: return GiveOwnMaterial{static_cast<ObjectIndex>(pick(scene.objects.size()))};
+        case 0:
+            return SetReflectance{material, uniform(0, 0.95)};
+        case 1:
+            return SetReflectance{material, Rgb(uniform(0, 0.9), uniform(0, 0.9), uniform(0, 0.9))};
+        case 2:
+            return SetDimmer{luminaire, uniform(0, 1.5)};
+        case 3:
+            return SetEmissionSpectrum{luminaire, Blackbody{uniform(1800, 8000)}};
+        case 4:
+            return SetPower{luminaire, PowerUnit::lumen, uniform(100, 4000)};
+        case 5:
+            return GiveOwnMaterial{static_cast<ObjectIndex>(pick(scene.objects.size()))};
         case 6: {
             DisplaySettings display = scene.display;
             display.gamma = uniform(1, 3);
             return SetDisplay{display};
         }
-        case 7: return SetTwoSided{material, pick(2) == 0};
+        case 7:
+            return SetTwoSided{material, pick(2) == 0};
         default: {
             Camera camera = scene.camera;
             camera.position.x += 0.1;
@@ -106,9 +106,12 @@ TEST(Worker, RandomEditsWhileSolvingSettleWhereAFreshSolveDoes) {
     for (int round = 0; round < rounds; ++round) {
         for (int k = 0; k < edits_a_round; ++k) {
             Stage stage = Stage::nothing;
-            if (edits.pick(8) == 0 && document.can_undo()) stage = document.undo();
-            else if (edits.pick(8) == 0 && document.can_redo()) stage = document.redo();
-            else if (const auto applied = document.apply(edits.next(document.scene()))) stage = *applied;
+            if (edits.pick(8) == 0 && document.can_undo())
+                stage = document.undo();
+            else if (edits.pick(8) == 0 && document.can_redo())
+                stage = document.redo();
+            else if (const auto applied = document.apply(edits.next(document.scene())))
+                stage = *applied;
             worker.submit(document.shared_scene(), document.revision(), stage);
             if (edits.pick(3) == 0) std::this_thread::sleep_for(std::chrono::microseconds(edits.pick(20000)));
             const auto seen = worker.latest(); // read while it is being solved: whole and sound
@@ -120,7 +123,7 @@ TEST(Worker, RandomEditsWhileSolvingSettleWhereAFreshSolveDoes) {
         ASSERT_TRUE(snapshot->status.settled) << snapshot->status.message;
         const Solution fresh = test::solved(document.scene());
         ASSERT_EQ(snapshot->field->irradiance_xyz.size(), fresh.field()->irradiance_xyz.size());
-        EXPECT_LT(difference(*snapshot->field, *fresh.field()), 1e-3);
+        EXPECT_LT(test::field_difference(*snapshot->field, *fresh.field()), 1e-3);
     }
     EXPECT_GT(wakes.load(), 0);
 }
@@ -136,7 +139,7 @@ TEST(Worker, AFloodOfEditsEndsSettled) {
     ASSERT_TRUE(worker.wait_settled(document.revision(), patience));
     EXPECT_EQ(worker.latest()->scene->luminaires[0].dimmer, 1.0);
     const Solution fresh = test::solved(document.scene());
-    EXPECT_LT(difference(*worker.latest()->field, *fresh.field()), 1e-3);
+    EXPECT_LT(test::field_difference(*worker.latest()->field, *fresh.field()), 1e-3);
 }
 
 TEST(Worker, PausesStepsAndRestarts) {
