@@ -6,15 +6,11 @@
 #include <fmt/format.h>
 
 #include "core/scene/scene_file.h"
+#include "core/spectrum/overload.h"
 
 namespace lueur {
 
 namespace {
-
-template <typename... Functions>
-struct Overloaded : Functions... {
-    using Functions::operator()...;
-};
 
 // The name of an entry for a person; edits that come from outside may name one that is not there.
 template <typename Index, typename Entry>
@@ -54,7 +50,7 @@ void take_mean_again(Scene& scene, MaterialIndex material) {
 // Changes the scene in place; the reason when the edit names something that is not there.
 std::optional<std::string> change(const Edit& edit, Scene& scene) {
     return std::visit(
-        Overloaded{
+        Overload{
             [&](const SetReflectance& e) -> std::optional<std::string> {
                 if (auto reason = missing("material", scene.materials, e.material)) return reason;
                 auto& material = scene.materials[at(e.material)];
@@ -149,7 +145,7 @@ std::optional<std::string> change(const Edit& edit, Scene& scene) {
 
 Stage first_stale_stage(const Edit& edit, const Scene& before) {
     return std::visit(
-        Overloaded{
+        Overload{
             [](const SetReflectance&) { return Stage::reflectance; },
             [](const SetTexture&) { return Stage::reflectance; },
             [](const SetTwoSided&) { return Stage::mesh; }, // a second side is a second set of elements
@@ -195,7 +191,7 @@ std::string describe(const Edit& edit, const Scene& scene) {
     const auto object = [&](ObjectIndex index) { return name_of(scene.objects, index); };
     const auto luminaire = [&](LuminaireIndex index) { return name_of(scene.luminaires, index); };
     return std::visit(
-        Overloaded{
+        Overload{
             [&](const SetReflectance& e) { return "Repaint " + material(e.material); },
             [&](const SetTexture& e) {
                 return (e.texture ? "Put a texture on " : "Take the texture off ") + material(e.material);
@@ -221,7 +217,7 @@ std::string describe(const Edit& edit, const Scene& scene) {
 
 bool same_target(const Edit& a, const Edit& b) {
     return std::visit(
-        Overloaded{
+        Overload{
             // Another kind of reflectance or spectrum is a choice of its own, not a slider's next value.
             [](const SetReflectance& x, const SetReflectance& y) {
                 return x.material == y.material && x.reflectance.index() == y.reflectance.index();

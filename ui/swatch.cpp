@@ -5,15 +5,11 @@
 
 #include "core/spectrum/colour.h"
 #include "core/spectrum/observer.h"
+#include "core/spectrum/overload.h"
 #include "core/spectrum/rgb_spectrum.h"
 
 namespace lueur {
 namespace {
-
-template <typename... Functions>
-struct Overloaded : Functions... {
-    using Functions::operator()...;
-};
 
 // Y = 1 for the perfect white.
 Xyz xyz_under_d65(const Spectrum& reflectance) {
@@ -32,25 +28,25 @@ Rgb srgb_from_xyz(const Xyz& xyz) {
 } // namespace
 
 Rgb linear_rgb(const Reflectance& reflectance) {
-    return std::visit(Overloaded{[](double value) { return Rgb(value); }, [](const Rgb& rgb) { return rgb; },
-                                 [](const SpectrumFile& file) { return srgb_from_xyz(xyz_under_d65(file.spectrum)); }},
+    return std::visit(Overload{[](double value) { return Rgb(value); }, [](const Rgb& rgb) { return rgb; },
+                               [](const SpectrumFile& file) { return srgb_from_xyz(xyz_under_d65(file.spectrum)); }},
                       reflectance);
 }
 
 double luminous_reflectance(const Reflectance& reflectance) {
     static const glm::dmat3 to_xyz = xyz_from_rgb(srgb);
-    return std::visit(Overloaded{[](double value) { return value; }, [](const Rgb& rgb) { return (to_xyz * rgb).y; },
-                                 [](const SpectrumFile& file) { return xyz_under_d65(file.spectrum).y; }},
+    return std::visit(Overload{[](double value) { return value; }, [](const Rgb& rgb) { return (to_xyz * rgb).y; },
+                               [](const SpectrumFile& file) { return xyz_under_d65(file.spectrum).y; }},
                       reflectance);
 }
 
 Rgb linear_rgb(const EmissionSpectrum& spectrum) {
     const auto of_xyz = [](const Xyz& xyz) { return srgb_from_xyz(xyz); };
     Rgb rgb =
-        std::visit(Overloaded{[&](const Flat&) { return of_xyz(xyz_from_spectrum(curve_of(Flat{}))); },
-                              [](const Rgb& colour) { return colour; },
-                              [&](const SpectrumFile& file) { return of_xyz(xyz_from_spectrum(file.spectrum)); },
-                              [&](const Blackbody& body) { return of_xyz(xyz_from_spectrum(blackbody(body.kelvin))); }},
+        std::visit(Overload{[&](const Flat&) { return of_xyz(xyz_from_spectrum(curve_of(Flat{}))); },
+                            [](const Rgb& colour) { return colour; },
+                            [&](const SpectrumFile& file) { return of_xyz(xyz_from_spectrum(file.spectrum)); },
+                            [&](const Blackbody& body) { return of_xyz(xyz_from_spectrum(blackbody(body.kelvin))); }},
                    spectrum);
     rgb = glm::max(rgb, 0.0);
     const double largest = std::max({rgb.r, rgb.g, rgb.b});
@@ -58,21 +54,21 @@ Rgb linear_rgb(const EmissionSpectrum& spectrum) {
 }
 
 Spectrum curve_of(const Reflectance& reflectance) {
-    return std::visit(Overloaded{[](double value) {
-                                     return Spectrum{{380, 780}, {value, value}};
-                                 },
-                                 [](const Rgb& rgb) { return reflectance_from_rgb(glm::clamp(rgb, 0.0, 1.0)); },
-                                 [](const SpectrumFile& file) { return file.spectrum; }},
+    return std::visit(Overload{[](double value) {
+                                   return Spectrum{{380, 780}, {value, value}};
+                               },
+                               [](const Rgb& rgb) { return reflectance_from_rgb(glm::clamp(rgb, 0.0, 1.0)); },
+                               [](const SpectrumFile& file) { return file.spectrum; }},
                       reflectance);
 }
 
 Spectrum curve_of(const EmissionSpectrum& spectrum) {
-    return std::visit(Overloaded{[](const Flat&) {
-                                     return Spectrum{{380, 780}, {1, 1}};
-                                 },
-                                 [](const Rgb&) { return Spectrum{}; },
-                                 [](const SpectrumFile& file) { return file.spectrum; },
-                                 [](const Blackbody& body) { return blackbody(body.kelvin); }},
+    return std::visit(Overload{[](const Flat&) {
+                                   return Spectrum{{380, 780}, {1, 1}};
+                               },
+                               [](const Rgb&) { return Spectrum{}; },
+                               [](const SpectrumFile& file) { return file.spectrum; },
+                               [](const Blackbody& body) { return blackbody(body.kelvin); }},
                       spectrum);
 }
 

@@ -3,17 +3,13 @@
 #include <algorithm>
 
 #include "core/spectrum/observer.h"
+#include "core/spectrum/overload.h"
 
 namespace lueur {
 
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-
-template <typename... Cases>
-struct Overload : Cases... {
-    using Cases::operator()...;
-};
 
 // Equal energy over the range that one unit of RGB white is spread over (wavelengths.h).
 const Spectrum& flat_spectrum() {

@@ -9,15 +9,11 @@
 #include "core/scene/files.h"
 #include "core/scene/scene_file.h"
 #include "core/scene/units.h"
+#include "core/spectrum/overload.h"
 
 namespace lueur {
 
 namespace {
-
-template <typename... Cases>
-struct Overload : Cases... {
-    using Cases::operator()...;
-};
 
 std::string quoted(const std::string& text) { // TOML basic string
     std::string result = "\"";

@@ -107,8 +107,7 @@ std::shared_ptr<const Field> compose_field(const Solution::State& s) {
                 field->emitted_xyz[v] = glm::vec3(xyz_from_channels(s.wavelengths, *exitance) / std::numbers::pi);
         }
     });
-    std::vector<std::uint8_t> buried = s.direct->buried();
-    for (std::uint32_t v = 0; v < coarse && v < s.buried.size(); ++v) buried[v] = buried[v] || s.buried[v];
+    const std::vector<std::uint8_t> buried = s.all_buried();
     fill_buried(mesh.elements, buried, field->irradiance_xyz);
     fill_buried(mesh.elements, buried, field->reflected_xyz);
     return field;

@@ -2,14 +2,6 @@
 
 namespace lueur {
 
-std::vector<float> coarse_vertex_areas(const Mesh& mesh) {
-    std::vector<float> area = vertex_areas(mesh);
-    for (std::size_t v = area.size(); v-- > mesh.coarse_vertex_count;)
-        for (const std::uint32_t parent : mesh.vertices[v].parents) area[parent] += 0.5f * area[v];
-    area.resize(mesh.coarse_vertex_count);
-    return area;
-}
-
 std::vector<float> restrict_direct(const Mesh& mesh, const DirectTransport& direct) {
     const std::size_t emitters = direct.emitter_count();
     std::vector<float> area = vertex_areas(mesh);

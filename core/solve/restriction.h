@@ -9,10 +9,6 @@
 
 namespace lueur {
 
-// Area that belongs to each coarse vertex: the hat-function integral over the fine mesh, so that sum A_j H_j is the
-// flux of the fine field.
-std::vector<float> coarse_vertex_areas(const Mesh& mesh);
-
 // The area-weighted mean of D under each coarse vertex's hat function, times emitters; buried fine vertices do not
 // count. A shadow edge inside an element so costs a bounce no energy.
 std::vector<float> restrict_direct(const Mesh& mesh, const DirectTransport& direct);

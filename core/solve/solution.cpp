@@ -63,16 +63,15 @@ ChannelField rho_of_patches(const State& s) {
     return rho;
 }
 
-ChannelField direct_of(const State& s, std::size_t first, std::size_t last) {
+// Direct irradiance of one luminaire at the coarse vertices, of D restricted to them.
+ChannelField direct_of(const State& s, const std::vector<float>& coarse_direct, std::size_t luminaire) {
     const std::size_t emitters = s.direct->emitter_count();
     ChannelField h(s.mesh.coarse_vertex_count, s.wavelengths.size());
-    for (std::uint32_t i = 0; i < h.count; ++i)
-        for (std::size_t l = first; l < last; ++l) {
-            const float d = s.coarse_direct[i * emitters + l];
-            if (d == 0) continue;
-            for (int c = 0; c < s.wavelengths.size(); ++c)
-                h[i][c] += d * static_cast<float>(s.luminaire_exitance[l][c]);
-        }
+    for (std::uint32_t i = 0; i < h.count; ++i) {
+        const float d = coarse_direct[i * emitters + luminaire];
+        for (int c = 0; c < s.wavelengths.size(); ++c)
+            h[i][c] = d * static_cast<float>(s.luminaire_exitance[luminaire][c]);
+    }
     return h;
 }
 
@@ -210,10 +209,11 @@ void start_gathering(State& s, bool new_rays) {
 }
 
 void start_shooting(State& s) {
+    const std::vector<float> coarse_direct = restrict_direct(s.mesh, *s.direct);
     std::vector<ChannelField> direct;
     std::vector<double> flux;
     for (std::size_t l = 0; l < s.direct->emitter_count(); ++l) {
-        direct.push_back(direct_of(s, l, l + 1));
+        direct.push_back(direct_of(s, coarse_direct, l));
         flux.push_back(0);
     }
     std::vector<float> weight;
@@ -227,11 +227,6 @@ void start_shooting(State& s) {
                           std::move(weight), s.scene->solve.seed);
     s.solving = true;
     s.status.shots = 0;
-}
-
-void restrict_sources(State& s) {
-    s.coarse_direct = restrict_direct(s.mesh, *s.direct);
-    s.coarse_area = coarse_vertex_areas(s.mesh);
 }
 
 void settle(State& s) {
@@ -261,14 +256,15 @@ void publish_mesh(State& s) {
 
 void step_mesh(State& s) {
     s.status.stage = SolveStage::meshing;
-    const double size =
-        s.scene->solve.element_size > 0 ? s.scene->solve.element_size : automatic_element_size(*s.scene);
-    s.mesh = make_mesh(*s.scene, {size});
+    s.element_size = s.scene->solve.element_size > 0 ? s.scene->solve.element_size : automatic_element_size(*s.scene);
+    s.mesh = make_mesh(*s.scene, {s.element_size});
     s.world = std::make_shared<const World>(s.mesh);
     s.origins = ray_origins(s.mesh, s.world->epsilon());
     s.buried.assign(s.mesh.coarse_vertex_count, 0);
-    const DirectParams params{0.03f, static_cast<float>(size / 8), s.mesh.coarse_vertex_count + fine_vertices};
+    const DirectParams params{0.03f, static_cast<float>(s.element_size / 8),
+                              s.mesh.coarse_vertex_count + fine_vertices};
     s.direct = std::make_unique<DirectTransport>(*s.world, s.mesh, make_emitters(*s.scene), params);
+    s.coarse_area = vertex_areas(s.mesh); // bisection keeps what hat functions integrate to
     publish_mesh(s);
     s.cursor = 0;
     s.phase = SolvePhase::sketch;
@@ -290,20 +286,10 @@ void step_burial(State& s, const std::atomic<bool>& cancel) {
             find_buried(*s.world, s.mesh, s.origins, first, last, s.buried);
         }))
         return;
-    s.status.rays += std::uint64_t(s.mesh.coarse_vertex_count) * 16;
-    restrict_sources(s);
-    const double size =
-        s.scene->solve.element_size > 0 ? s.scene->solve.element_size : automatic_element_size(*s.scene);
-    s.receivers = make_receivers(*s.scene, s.mesh, s.buried, static_cast<float>(receiver_cell * size));
+    s.status.rays += std::uint64_t(s.mesh.coarse_vertex_count) * burial_rays;
+    s.receivers = make_receivers(*s.scene, s.mesh, s.buried, static_cast<float>(receiver_cell * s.element_size));
     s.status.receivers = s.receivers.count();
     s.phase = s.scene->solve.solver == SolverKind::shooting ? SolvePhase::refine : SolvePhase::gather;
-}
-
-// Coarse vertices by their own rays, fine ones where they are dark and inside a solid.
-std::vector<std::uint8_t> all_buried(const State& s) {
-    std::vector<std::uint8_t> buried = s.direct->buried();
-    for (std::size_t v = 0; v < s.buried.size(); ++v) buried[v] = buried[v] || s.buried[v];
-    return buried;
 }
 
 void step_gather(State& s, const std::atomic<bool>& cancel) {
@@ -314,7 +300,7 @@ void step_gather(State& s, const std::atomic<bool>& cancel) {
         s.pass_open = true;
     }
     const std::uint32_t pass = static_cast<std::uint32_t>(s.passes.size()) - 1;
-    const std::vector<std::uint8_t> buried = all_buried(s);
+    const std::vector<std::uint8_t> buried = s.all_buried();
     if (!run_slice(s.cursor, s.receivers.count(), 64, cancel, [&](std::uint32_t first, std::uint32_t last) {
             trace_gather_rays(*s.world, s.mesh, s.origins, s.receivers, buried, s.scene->solve.seed, pass, first, last,
                               s.passes.back());
@@ -363,10 +349,9 @@ void step_sweep(State& s, const std::atomic<bool>& cancel) {
         refresh_indirect(s);
         if (s.system.diverged() || s.status.sweeps > most_sweeps)
             return fail(s, "the solver does not converge on this scene; a reflectance is too close to 1");
-        s.status.unshot_share = unshot_flux_share(s);
-        if (s.system.relative_residual() > residual_target) return;
     }
     s.status.unshot_share = unshot_flux_share(s);
+    if (s.system.relative_residual() > residual_target) return;
     update_error(s);
     if (!s.refined) {
         s.phase = SolvePhase::refine;
@@ -386,9 +371,6 @@ void step_refine(State& s, const std::atomic<bool>& cancel) {
     const bool done = s.direct->refine(cancel);
     if (s.mesh.vertices.size() != before) publish_mesh(s);
     if (!done) return;
-    list_leaves(s.mesh);
-    publish_mesh(s);
-    restrict_sources(s);
     s.refined = true;
     if (s.scene->solve.solver == SolverKind::shooting) {
         start_shooting(s);
@@ -424,6 +406,12 @@ void step_shoot(State& s, const std::atomic<bool>& cancel, bool one_shot) {
 }
 
 } // namespace
+
+std::vector<std::uint8_t> Solution::State::all_buried() const {
+    std::vector<std::uint8_t> all = direct->buried();
+    for (std::size_t v = 0; v < buried.size(); ++v) all[v] = all[v] || buried[v];
+    return all;
+}
 
 std::uint32_t Solution::State::material_of(std::uint32_t surface) const {
     return static_cast<std::uint32_t>(at(scene->objects[at(scene->geometry->surfaces[surface].object)].material));

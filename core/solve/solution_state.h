@@ -34,8 +34,8 @@ struct Solution::State {
     std::uint32_t passes_wanted = 1; // from the geometry alone: see passes_for
     bool rays_planned = false;       // passes_wanted will not grow any more
     bool refined = false;
-    std::vector<float> coarse_direct; // D restricted to coarse vertices, * emitters
-    std::vector<float> coarse_area;   // m^2 of each coarse vertex
+    double element_size = 0;        // m, longest coarse edge in use
+    std::vector<float> coarse_area; // m^2 of each coarse vertex
 
     // Sources and paints, in channels.
     Wavelengths wavelengths;
@@ -50,6 +50,8 @@ struct Solution::State {
     bool solving = false;  // system or shooting hold this scene's sources
     bool edit_open = true; // last_edit_seconds is still to be set
 
+    // Coarse vertices by their own rays, fine ones where they are dark and inside a solid.
+    std::vector<std::uint8_t> all_buried() const;
     std::uint32_t material_of(std::uint32_t surface) const;
     // Exitance of the luminaire that shines on this side of a surface, or null.
     const std::vector<double>* exitance_of(std::uint32_t surface, bool back) const;

@@ -176,10 +176,8 @@ bool DirectTransport::refine(const std::atomic<bool>& cancel) {
                                         const glm::vec3 sum = a.normal + b.normal;
                                         const glm::vec3 normal =
                                             glm::dot(sum, sum) > 1e-12f ? glm::normalize(sum) : a.normal;
-                                        const glm::vec3 shift = 0.02f * (edge.inward / float(edge.elements) - middle);
-                                        const float bend = glm::dot(shift, normal);
-                                        light(middle + shift + (epsilon + std::abs(bend) - bend) * normal, normal,
-                                              edge_factors_.data() + std::size_t(e) * emitters_.size());
+                                        light(ray_origin(middle, normal, edge.inward / float(edge.elements), epsilon),
+                                              normal, edge_factors_.data() + std::size_t(e) * emitters_.size());
                                     }
                                 });
     if (!done) return false;

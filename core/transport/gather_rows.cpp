@@ -6,7 +6,6 @@ namespace lueur {
 
 namespace {
 
-constexpr int burial_rays = 16;
 constexpr int most_back_faces = 4; // a quarter
 
 // One of three vertices, by interpolation weight, among those that are not buried.

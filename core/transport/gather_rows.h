@@ -18,7 +18,8 @@
 namespace lueur {
 
 inline constexpr int rays_per_pass = 32;
-inline constexpr int independent_sets = 2; // pass p belongs to set p % 2
+inline constexpr std::uint32_t burial_rays = 16; // of find_buried, a vertex
+inline constexpr int independent_sets = 2;       // pass p belongs to set p % 2
 
 // Coarse vertices whose rays mostly meet back faces lie inside a solid (a floor vertex under a block): they take no
 // part. Receivers in [first, last) of `origins`; the result is written to buried[first..last).

@@ -239,6 +239,13 @@ Located locate(const Mesh& mesh, std::uint32_t coarse_element, float b1, float b
     return {mesh.nodes[n].vertices, w};
 }
 
+glm::vec3 ray_origin(glm::vec3 position, glm::vec3 normal, glm::vec3 inward, float epsilon) {
+    const glm::vec3 shift = 0.02f * (inward - position);
+    // On a curved surface the elements bend away from the tangent plane: stay as far above it as they may be below.
+    const float bend = glm::dot(shift, normal);
+    return position + shift + (epsilon + std::abs(bend) - bend) * normal;
+}
+
 std::vector<glm::vec3> ray_origins(const Mesh& mesh, float epsilon) {
     std::vector<glm::vec3> inward(mesh.vertices.size(), glm::vec3(0));
     std::vector<float> count(mesh.vertices.size(), 0);
@@ -250,10 +257,8 @@ std::vector<glm::vec3> ray_origins(const Mesh& mesh, float epsilon) {
     std::vector<glm::vec3> origins(mesh.vertices.size());
     for (std::size_t v = 0; v < origins.size(); ++v) {
         const MeshVertex& vertex = mesh.vertices[v];
-        const glm::vec3 shift = count[v] > 0 ? 0.02f * (inward[v] / count[v] - vertex.position) : glm::vec3(0);
-        // On a curved surface the elements bend away from the tangent plane: stay as far above it as they may be below.
-        const float bend = glm::dot(shift, vertex.normal);
-        origins[v] = vertex.position + shift + (epsilon + std::abs(bend) - bend) * vertex.normal;
+        const glm::vec3 inside = count[v] > 0 ? inward[v] / count[v] : vertex.position;
+        origins[v] = ray_origin(vertex.position, vertex.normal, inside, epsilon);
     }
     return origins;
 }

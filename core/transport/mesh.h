@@ -74,6 +74,10 @@ struct Located {
 };
 Located locate(const Mesh& mesh, std::uint32_t coarse_element, float b1, float b2);
 
+// Where rays of a point of a surface start: moved a little towards `inward`, the middle of the elements around it, and
+// lifted off the surface by epsilon and by what a curved surface may bend away.
+glm::vec3 ray_origin(glm::vec3 position, glm::vec3 normal, glm::vec3 inward, float epsilon);
+
 // Where rays of a vertex start: moved a little into its elements (a vertex on a corner lies in the next wall) and off
 // its surface.
 std::vector<glm::vec3> ray_origins(const Mesh& mesh, float epsilon);
