@@ -20,6 +20,9 @@ void free_vertex_array(GLuint name) {
 void free_program(GLuint name) {
     glDeleteProgram(name);
 }
+void free_sampler(GLuint name) {
+    glDeleteSamplers(1, &name);
+}
 
 GlTexture new_texture() {
     GLuint name = 0;
@@ -40,6 +43,11 @@ GlVertexArray new_vertex_array() {
     GLuint name = 0;
     glGenVertexArrays(1, &name);
     return GlVertexArray(name);
+}
+GlSampler new_sampler() {
+    GLuint name = 0;
+    glGenSamplers(1, &name);
+    return GlSampler(name);
 }
 
 namespace {

@@ -37,16 +37,19 @@ void free_buffer(GLuint name);
 void free_framebuffer(GLuint name);
 void free_vertex_array(GLuint name);
 void free_program(GLuint name);
+void free_sampler(GLuint name);
 using GlTexture = GlName<free_texture>;
 using GlBuffer = GlName<free_buffer>;
 using GlFramebuffer = GlName<free_framebuffer>;
 using GlVertexArray = GlName<free_vertex_array>;
 using GlProgram = GlName<free_program>;
+using GlSampler = GlName<free_sampler>;
 
 GlTexture new_texture();
 GlBuffer new_buffer();
 GlFramebuffer new_framebuffer();
 GlVertexArray new_vertex_array();
+GlSampler new_sampler();
 
 // `defines`: lines put after #version 330 core. An empty geometry shader is none. The error is the compiler's own text.
 std::expected<GlProgram, std::string> make_program(std::string_view defines, std::string_view vertex,

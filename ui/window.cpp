@@ -88,9 +88,19 @@ std::expected<std::unique_ptr<Window>, std::string> Window::open(const WindowPar
     glfwSetScrollCallback(handle, [](GLFWwindow* w, double, double) { of(w).events_.any = true; });
     glfwSetCharCallback(handle, [](GLFWwindow* w, unsigned) { of(w).events_.any = true; });
     glfwSetWindowFocusCallback(handle, [](GLFWwindow* w, int) { of(w).events_.any = true; });
-    glfwSetWindowRefreshCallback(handle, [](GLFWwindow* w) { of(w).events_.any = true; });
-    glfwSetFramebufferSizeCallback(handle, [](GLFWwindow* w, int, int) { of(w).events_.any = true; });
-    glfwSetWindowIconifyCallback(handle, [](GLFWwindow* w, int) { of(w).events_.any = true; });
+    // What was drawn, or what was shown of it, may be lost.
+    glfwSetWindowRefreshCallback(handle, [](GLFWwindow* w) {
+        of(w).events_.any = true;
+        of(w).damage_.forget();
+    });
+    glfwSetFramebufferSizeCallback(handle, [](GLFWwindow* w, int, int) {
+        of(w).events_.any = true;
+        of(w).damage_.forget();
+    });
+    glfwSetWindowIconifyCallback(handle, [](GLFWwindow* w, int) {
+        of(w).events_.any = true;
+        of(w).damage_.forget();
+    });
 
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
@@ -100,11 +110,16 @@ std::expected<std::unique_ptr<Window>, std::string> Window::open(const WindowPar
     ImGui_ImplGlfw_InitForOpenGL(handle, true); // keeps the callbacks above and adds its own
     ImGui_ImplOpenGL3_Init("#version 330 core");
     window->make_fonts();
+    auto stretch = Stretch::make();
+    if (!stretch) return std::unexpected("a shader does not compile: " + stretch.error());
+    window->stretch_ = std::move(*stretch);
+    window->find_copy_sub_buffer();
     window->events_.any = true;
     return window;
 }
 
 Window::~Window() {
+    stretch_ = {}; // while there is a context
     if (ImGui::GetCurrentContext()) {
         ImGui_ImplOpenGL3_Shutdown();
         ImGui_ImplGlfw_Shutdown();
@@ -127,6 +142,7 @@ void Window::make_fonts() {
     apply_theme(scale_);
     fonts_ = load_fonts(scale_, font_complaint_);
     ImGui_ImplOpenGL3_DestroyFontsTexture();
+    damage_.forget();
     fonts_stale_ = false;
 }
 
@@ -192,25 +208,55 @@ void Window::replay_mouse() {
     for (std::size_t i = 0; i < mouse_down_.size(); ++i) io.MouseDown[i] = mouse_down_[i];
 }
 
+// A software renderer shows a frame by copying its back buffer, which stays as it is: so it need be drawn, and copied,
+// only where it has changed. (After a swap it is undefined, and a graphics processor draws a frame in no time.)
+void Window::find_copy_sub_buffer() {
+    const std::string renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    if (!renderer.starts_with("llvmpipe") && !renderer.starts_with("softpipe")) return;
+    if (!glfwExtensionSupported("GLX_MESA_copy_sub_buffer")) return;
+    const auto display = reinterpret_cast<void* (*)()>(glfwGetProcAddress("glXGetCurrentDisplay"));
+    const auto drawable = reinterpret_cast<unsigned long (*)()>(glfwGetProcAddress("glXGetCurrentDrawable"));
+    if (!display || !drawable) return;
+    display_ = display();
+    drawable_ = drawable();
+    copy_sub_buffer_ = reinterpret_cast<decltype(copy_sub_buffer_)>(glfwGetProcAddress("glXCopySubBufferMESA"));
+}
+
+// Not drawn by ImGui: a software renderer blends a million pixels for nothing.
+void Window::draw_underlay(const Underlay& under, const PixelBox& place, int height) {
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, under.framebuffer);
+    if (under.from_width == under.width && under.from_height == under.height) {
+        glBlitFramebuffer(0, 0, under.width, under.height, place.left, height - place.bottom, place.right,
+                          height - place.top, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    } else {
+        GLint texture = 0;
+        glGetFramebufferAttachmentParameteriv(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0,
+                                              GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME, &texture);
+        stretch_.draw(static_cast<GLuint>(texture), place, height);
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
 void Window::end_frame(const Underlay& under) {
     ImGui::Render();
-    int w = 0, h = 0;
-    glfwGetFramebufferSize(window_, &w, &h);
+    auto& data = *ImGui::GetDrawData();
+    const auto all = whole_frame(data);
+    if (all.empty()) return; // iconified
+    const PixelBox picture =
+        under.framebuffer ? PixelBox{under.x, under.y, under.x + under.width, under.y + under.height} : PixelBox{};
+    const auto boxes = copy_sub_buffer_ ? damage_.next(data, picture) : std::vector{all};
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    glViewport(0, 0, w, h);
+    for (const auto& box : boxes)
+        draw_box(data, box, [&] {
+            if (!intersection(box, picture).empty()) draw_underlay(under, picture, all.bottom);
+        });
     glDisable(GL_SCISSOR_TEST);
-    glClearColor(colours::panel.x, colours::panel.y, colours::panel.z,
-                 1); // the panels' windows draw no ground of their own
-    glClear(GL_COLOR_BUFFER_BIT);
-    if (under.framebuffer) { // copied and not drawn by ImGui: a software renderer blends a million pixels for nothing
-        glBindFramebuffer(GL_READ_FRAMEBUFFER, under.framebuffer);
-        const bool same = under.from_width == under.width && under.from_height == under.height;
-        glBlitFramebuffer(0, 0, under.from_width, under.from_height, under.x, h - under.y - under.height,
-                          under.x + under.width, h - under.y, GL_COLOR_BUFFER_BIT, same ? GL_NEAREST : GL_LINEAR);
-        glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    }
-    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-    glfwSwapBuffers(window_);
+    if (!copy_sub_buffer_)
+        glfwSwapBuffers(window_);
+    else
+        for (const auto& box : boxes)
+            copy_sub_buffer_(display_, drawable_, box.left, all.bottom - box.bottom, box.right - box.left,
+                             box.bottom - box.top);
 }
 
 int Window::width() const {

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "ui/damage.h"
+#include "ui/stretch.h"
 #include "ui/theme.h"
 
 struct GLFWwindow;
@@ -51,7 +53,8 @@ public:
     void set_title(const std::string& title);
     void begin_frame();
     bool has_more_input() const { return !mouse_events_.empty(); } // for the next frame
-    // What lies under the panels: a framebuffer stretched over a part of the window, in pixels from the top left.
+    // What lies under the panels: a framebuffer (of a texture) stretched over a part of the window, in pixels from the
+    // top left.
     struct Underlay {
         unsigned framebuffer = 0;
         int from_width = 0, from_height = 0;
@@ -72,6 +75,8 @@ private:
     Window() = default;
     void make_fonts();
     void replay_mouse();
+    void find_copy_sub_buffer();
+    void draw_underlay(const Underlay& under, const PixelBox& place, int height);
     static Window& of(GLFWwindow* window);
 
     GLFWwindow* window_ = nullptr;
@@ -88,6 +93,12 @@ private:
     float scale_ = 1;
     bool fonts_stale_ = false;
     Fonts fonts_;
+    FrameDamage damage_;
+    Stretch stretch_;
+    // GLX_MESA_copy_sub_buffer, from the back buffer's bottom left; null: a whole frame is swapped.
+    void (*copy_sub_buffer_)(void* display, unsigned long drawable, int x, int y, int width, int height) = nullptr;
+    void* display_ = nullptr;
+    unsigned long drawable_ = 0;
     std::string font_complaint_, title_;
 };
 
