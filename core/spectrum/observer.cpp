@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "core/spectrum/observer_integral.h"
@@ -12,9 +13,25 @@ namespace lueur {
 
 namespace {
 
-constexpr std::array<std::array<double, 3>, observer_last_nm - observer_first_nm + 1> table{{
+using Table = std::array<std::array<double, 3>, observer_last_nm - observer_first_nm + 1>;
+
+constexpr Table cie1931_table{{
 #include "core/spectrum/observer_table.inc"
 }};
+
+constexpr Table cie1964_table{{
+#include "core/spectrum/observer_1964_table.inc"
+}};
+
+const Table& table_of(Observer observer) {
+    switch (observer) {
+    case Observer::cie1931_2degree:
+        return cie1931_table;
+    case Observer::cie1964_10degree:
+        return cie1964_table;
+    }
+    std::unreachable();
+}
 
 const std::vector<double>& observer_grid() {
     static const std::vector<double> grid = [] {
@@ -27,31 +44,30 @@ const std::vector<double>& observer_grid() {
 
 } // namespace
 
-Xyz observer_xyz(int nm) {
+Xyz observer_xyz(int nm, Observer observer) {
     if (nm < observer_first_nm || nm > observer_last_nm) return Xyz(0);
-    const auto& row = table[static_cast<std::size_t>(nm - observer_first_nm)];
+    const auto& row = table_of(observer)[static_cast<std::size_t>(nm - observer_first_nm)];
     return {row[0], row[1], row[2]};
 }
 
-Xyz observer_xyz(double nm) {
+Xyz observer_xyz(double nm, Observer observer) {
     if (!(nm >= observer_first_nm && nm <= observer_last_nm)) return Xyz(0);
     const int below = std::min(static_cast<int>(nm), observer_last_nm - 1);
-    return glm::mix(observer_xyz(below), observer_xyz(below + 1), nm - below);
+    return glm::mix(observer_xyz(below, observer), observer_xyz(below + 1, observer), nm - below);
 }
 
-Xyz observer_integral(const Spectrum& spectrum, Outside outside) {
-    if (spectrum.nm.empty()) return Xyz(0);
+Xyz observer_integral(const Spectrum& spectrum, Outside outside, Observer observer) {
     double from = observer_first_nm, to = observer_last_nm;
-    if (outside == Outside::zero) { // the jump to zero at the ends of the grid must not fall inside an interval
-        from = std::max(from, spectrum.nm.front());
-        to = std::min(to, spectrum.nm.back());
+    if (outside == Outside::zero) {
+        from = std::max(from, first_nm(spectrum));
+        to = std::min(to, last_nm(spectrum));
     }
-    return integrate<Xyz>(breakpoints(from, to, {spectrum.nm, observer_grid()}),
-                          [&](double nm) { return value_at(spectrum, nm, outside) * observer_xyz(nm); });
+    return integrate<Xyz>(breakpoints(from, to, {grid(spectrum), observer_grid()}),
+                          [&](double nm) { return value_at(spectrum, nm, outside) * observer_xyz(nm, observer); });
 }
 
-Xyz xyz_from_spectrum(const Spectrum& emission) {
-    return luminous_efficacy_km * observer_integral(emission, Outside::zero);
+Xyz xyz_from_spectrum(const Spectrum& emission, Observer observer) {
+    return luminous_efficacy_km * observer_integral(emission, Outside::zero, observer);
 }
 
 } // namespace lueur

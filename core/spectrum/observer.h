@@ -1,5 +1,5 @@
-// The CIE 1931 2-degree standard observer at 1 nm, 360..830 nm (CIE 018:2019 table; also ISO/CIE 11664-1), and
-// photometry.
+// The CIE standard observers at 1 nm, 360..830 nm (ISO/CIE 11664-1:2019): 1931 2-degree, which is meant wherever no
+// observer is named, and 1964 10-degree. Luminous quantities are defined by the 1931 observer; Y10 is relative.
 #pragma once
 
 #include "core/spectrum/wavelengths.h"
@@ -10,11 +10,13 @@ namespace lueur {
 inline constexpr double luminous_efficacy_km = 683.0;
 inline constexpr int observer_first_nm = 360, observer_last_nm = 830;
 
-Xyz observer_xyz(int nm);    // 0 outside 360..830
-Xyz observer_xyz(double nm); // linear between the 1 nm entries
+enum class Observer { cie1931_2degree, cie1964_10degree };
+
+Xyz observer_xyz(int nm, Observer observer = Observer::cie1931_2degree);    // 0 outside 360..830
+Xyz observer_xyz(double nm, Observer observer = Observer::cie1931_2degree); // linear between the 1 nm entries
 
 // Km * integral of spectrum * (xbar, ybar, zbar): W m^-2 nm^-1 -> XYZ with Y in lm m^-2. Integrates piecewise exactly
 // at 1 nm.
-Xyz xyz_from_spectrum(const Spectrum& emission);
+Xyz xyz_from_spectrum(const Spectrum& emission, Observer observer = Observer::cie1931_2degree);
 
 } // namespace lueur

@@ -4,57 +4,43 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
+#include <optional>
 
+#include "core/spectrum/chromatic_adaptation.h"
 #include "core/spectrum/colour.h"
-#include "core/spectrum/observer.h"
-#include "core/spectrum/quadrature.h"
+#include "core/spectrum/reflectance_nodes.h"
 
 namespace lueur {
 
 namespace {
 
-constexpr int first_nm = 380, last_nm = 780, step_nm = 5;
-constexpr int node_count = (last_nm - first_nm) / step_nm + 1;
-
 constexpr double d65_table[] = {
 #include "core/spectrum/illuminant_d65_table.inc"
 };
 
-// What a reflectance given at the nodes shows under D65: rgb = sum_i weight[i] * reflectance[i], exact for the
-// piecewise linear spectrum. Divided by the perfect reflector's, so that white is (1,1,1): the table's white point
-// (0.31272, 0.32903) and the rounded one of sRGB (0.3127, 0.3290) differ in the fifth digit.
-using NodeWeights = std::array<Eigen::Vector3d, node_count>;
+// What a reflectance given at the nodes shows under the illuminant to an eye adapted to it: rgb = sum_i weight[i] *
+// reflectance[i]. The illuminant's white goes to that of sRGB by Bradford's transform, so that white is (1,1,1).
+using RgbWeights = std::array<Eigen::Vector3d, node_count>;
 
-const NodeWeights& node_weights() {
-    static const NodeWeights weights = [] {
-        const Spectrum& d65 = illuminant_d65();
-        const glm::dmat3 rgb_from = rgb_from_xyz(srgb);
-        std::vector<double> observer_grid;
-        for (int nm = observer_first_nm; nm <= observer_last_nm; ++nm) observer_grid.push_back(nm);
-        std::array<Rgb, node_count> raw;
-        Rgb white(0);
-        for (int i = 0; i < node_count; ++i) {
-            // The node's hat; the end nodes hold to the end of the observer (Outside::constant).
-            const double nm = first_nm + i * step_nm;
-            Spectrum hat{{nm - step_nm, nm, nm + step_nm}, {0, 1, 0}};
-            if (i == 0) hat = {{observer_first_nm, nm, nm + step_nm}, {1, 1, 0}};
-            if (i == node_count - 1) hat = {{nm - step_nm, nm}, {0, 1}}; // D65 ends here too
-            const std::vector<double> points =
-                breakpoints(hat.nm.front(), hat.nm.back(), {hat.nm, d65.nm, observer_grid});
-            raw[static_cast<std::size_t>(i)] =
-                rgb_from * integrate<Xyz>(points, [&](double at) {
-                    return value_at(hat, at, Outside::zero) * value_at(d65, at, Outside::zero) * observer_xyz(at);
-                });
-            white += raw[static_cast<std::size_t>(i)];
-        }
-        NodeWeights normalised;
-        for (std::size_t i = 0; i < raw.size(); ++i) {
-            const Rgb w = raw[i] / white;
-            normalised[i] = {w.r, w.g, w.b};
-        }
-        return normalised;
-    }();
+// None where the illuminant has no white to adapt to: no light, or one so pure that a cone's response is not above 0.
+std::optional<RgbWeights> rgb_weights(const Spectrum& illuminant) {
+    const NodeWeights xyz = node_weights(illuminant);
+    Xyz white(0);
+    for (const Xyz& weight : xyz) white += weight;
+    if (!(white.x > 0 && white.y > 0 && white.z > 0)) return {};
+    const glm::dmat3 adapted = bradford_adaptation(white, xyz_from_rgb(srgb) * Rgb(1));
+    const glm::dmat3 rgb_from = rgb_from_xyz(srgb) * adapted;
+    RgbWeights weights;
+    for (std::size_t i = 0; i < xyz.size(); ++i) {
+        const Rgb weight = rgb_from * xyz[i];
+        weights[i] = {weight.r, weight.g, weight.b};
+        if (!weights[i].allFinite()) return {};
+    }
+    return weights;
+}
+
+const RgbWeights& d65_weights() {
+    static const RgbWeights weights = *rgb_weights(illuminant_d65());
     return weights;
 }
 
@@ -79,12 +65,12 @@ struct Fit {
     Eigen::Matrix3d jacobian; // of the residual
 };
 
-Fit evaluate(const Eigen::Vector3d& coefficients, const Eigen::Vector3d& wanted) {
+Fit evaluate(const RgbWeights& weights, const Eigen::Vector3d& coefficients, const Eigen::Vector3d& wanted) {
     Fit fit{coefficients, -wanted, Eigen::Matrix3d::Zero()};
     for (int i = 0; i < node_count; ++i) {
         const Eigen::Vector3d powers = basis(i);
         const double x = coefficients.dot(powers);
-        const Eigen::Vector3d& weight = node_weights()[static_cast<std::size_t>(i)];
+        const Eigen::Vector3d& weight = weights[static_cast<std::size_t>(i)];
         fit.residual += weight * sigmoid(x);
         fit.jacobian += sigmoid_derivative(x) * weight * powers.transpose();
     }
@@ -95,8 +81,9 @@ constexpr double small_residual = 1e-10; // of linear RGB
 
 // Gauss-Newton with Levenberg and Marquardt's damping: near the corners of the RGB cube the sigmoid saturates and an
 // undamped step would run away.
-Fit fit_colour(const Eigen::Vector3d& coefficients, const Eigen::Vector3d& wanted, int iterations) {
-    Fit best = evaluate(coefficients, wanted);
+Fit fit_colour(const RgbWeights& weights, const Eigen::Vector3d& coefficients, const Eigen::Vector3d& wanted,
+               int iterations) {
+    Fit best = evaluate(weights, coefficients, wanted);
     double damping = 1e-6;
     for (int i = 0; i < iterations && best.residual.norm() > small_residual; ++i) {
         const Eigen::Matrix3d normal = best.jacobian.transpose() * best.jacobian;
@@ -110,7 +97,7 @@ Fit fit_colour(const Eigen::Vector3d& coefficients, const Eigen::Vector3d& wante
             damping = std::max(damping * 10, 1e-6);
             continue;
         }
-        Fit candidate = evaluate(next, wanted);
+        Fit candidate = evaluate(weights, next, wanted);
         if (candidate.residual.norm() < best.residual.norm()) {
             best = candidate;
             damping = std::max(damping / 10, 1e-14);
@@ -126,13 +113,11 @@ double flat_coefficient(double grey) {
     return (grey - 0.5) / std::sqrt(grey * (1 - grey));
 } // S(x) = grey
 
-} // namespace
-
-Spectrum reflectance_from_rgb(const Rgb& rgb) {
+Spectrum fitted_reflectance(const Rgb& rgb, const RgbWeights& weights) {
     Rgb bounded;
     for (int c = 0; c < 3; ++c) bounded[c] = rgb[c] > 0 ? std::min(rgb[c], 1.0) : 0.0; // NaN to 0
     Spectrum spectrum;
-    for (int nm = first_nm; nm <= last_nm; nm += step_nm) spectrum.nm.push_back(nm);
+    for (int i = 0; i < node_count; ++i) spectrum.nm.push_back(node_nm(i));
     if (bounded.r == bounded.g &&
         bounded.g == bounded.b) { // grey is flat, exactly: the sigmoid reaches 0 and 1 at infinity only
         spectrum.value.assign(spectrum.nm.size(), bounded.r);
@@ -141,20 +126,32 @@ Spectrum reflectance_from_rgb(const Rgb& rgb) {
     const Eigen::Vector3d wanted(bounded.r, bounded.g, bounded.b);
     const Eigen::Vector3d grey = Eigen::Vector3d::Constant(std::clamp(wanted.mean(), 0.05, 0.95));
     const Eigen::Vector3d flat(flat_coefficient(grey[0]), 0, 0);
-    Fit fit = fit_colour(flat, wanted, 30);
+    Fit fit = fit_colour(weights, flat, wanted, 30);
     if (fit.residual.norm() > small_residual) {
         // A saturated colour: walk to it from the grey, each fit starting from the one before (as in the authors' own
-        // code).
-        fit.coefficients = flat;
+        // code). Where the light cannot show the colour the direct way may have ended nearer to it.
+        Fit walked{flat, {}, {}};
         constexpr int stations = 10;
         for (int i = 1; i <= stations; ++i) {
             const double way = static_cast<double>(i) / stations;
-            fit = fit_colour(fit.coefficients, grey + way * (wanted - grey), i == stations ? 200 : 20);
+            walked = fit_colour(weights, walked.coefficients, grey + way * (wanted - grey), i == stations ? 200 : 20);
         }
+        if (walked.residual.norm() > small_residual) fit = fit_colour(weights, fit.coefficients, wanted, 200);
+        if (walked.residual.norm() < fit.residual.norm()) fit = walked;
     }
     for (int i = 0; i < node_count; ++i)
         spectrum.value.push_back(std::clamp(sigmoid(fit.coefficients.dot(basis(i))), 0.0, 1.0));
     return spectrum;
+}
+
+} // namespace
+
+Spectrum reflectance_from_rgb(const Rgb& rgb) {
+    return fitted_reflectance(rgb, d65_weights());
+}
+
+Spectrum reflectance_from_rgb(const Rgb& rgb, const Spectrum& illuminant) {
+    return fitted_reflectance(rgb, rgb_weights(illuminant).value_or(d65_weights()));
 }
 
 const Spectrum& illuminant_d65() {

@@ -1,6 +1,7 @@
 // RGB matrices from chromaticities, and the sRGB curve.
 #include <cmath>
 #include <gtest/gtest.h>
+#include <optional>
 
 #include "core/spectrum/colour.h"
 
@@ -54,6 +55,64 @@ TEST(RgbSpace, WhiteAndPrimariesHaveTheirChromaticities) {
     EXPECT_NEAR((xyz * Rgb(1)).y, 1, 1e-14);
     EXPECT_NEAR(red.x, 0.64, 1e-14);
     EXPECT_NEAR(red.y, 0.33, 1e-14);
+}
+
+TEST(RgbSpace, PresetsAreNamed) {
+    EXPECT_EQ(rgb_space_named("srgb"), srgb);
+    EXPECT_EQ(rgb_space_named("rec709"), srgb);
+    EXPECT_EQ(rgb_space_named("lecture"), lecture_monitor);
+    EXPECT_EQ(rgb_space_named("sRGB2"), std::nullopt);
+    for (const auto& [name, space] : rgb_spaces) EXPECT_EQ(make_rgb_space(space), space) << name;
+    // Computed independently from the same chromaticities.
+    expect_matrix(xyz_from_rgb(display_p3),
+                  {{0.4865709486482161, 0.26566769316909306, 0.19821728523436247},
+                   {0.22897456406974875, 0.6917385218365063, 0.07928691409374498},
+                   {0, 0.04511338185890263, 1.0439443689009757}},
+                  1e-12);
+    expect_matrix(xyz_from_rgb(lecture_monitor),
+                  {{0.478206716896092, 0.29855963610193, 0.17460142815699314},
+                   {0.26347057969115895, 0.6550487538355776, 0.08148066647326346},
+                   {0.019798367260029304, 0.16042010298014148, 0.9079274264163643}},
+                  1e-12);
+    expect_matrix(rgb_from_xyz(lecture_monitor),
+                  {{2.739386694386696, -1.1447089397089405, -0.4240748440748443},
+                   {-1.1189857131981626, 2.0285007739741667, 0.033144618976324015},
+                   {0.1379762477231329, -0.33345058894960553, 1.1048007771706132}},
+                  1e-12);
+    // ITU-R BT.2020-2, table 4: E_Y = 0.2627 R + 0.6780 G + 0.0593 B.
+    const glm::dmat3 wide = xyz_from_rgb(rec2020);
+    EXPECT_NEAR(wide[0].y, 0.2627, 5e-5);
+    EXPECT_NEAR(wide[1].y, 0.6780, 5e-5);
+    EXPECT_NEAR(wide[2].y, 0.0593, 5e-5);
+}
+
+TEST(RgbSpace, WhiteHasTheLuminanceOfTheDisplay) {
+    RgbSpace display = srgb;
+    display.white_luminance = 250; // cd m^-2
+    EXPECT_NEAR((xyz_from_rgb(display) * Rgb(1)).y, 250, 1e-10);
+    EXPECT_NEAR((rgb_from_xyz(display) * Xyz(xyz_from_chromaticity(d65_white, 125))).g, 0.5, 1e-12);
+}
+
+TEST(RgbSpace, OfOnesOwnIsChecked) {
+    const auto error = [](const RgbSpace& space) {
+        const auto made = make_rgb_space(space);
+        return made ? std::string("none") : made.error();
+    };
+    EXPECT_EQ(error({{0.64, 0.33}, {0.30, 0.60}, {0.47, 0.465}, d65_white}),
+              "phosphors on one line; allowed: three that span a triangle");
+    EXPECT_EQ(error({{0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}, {0.7, 0.2}}),
+              "white (0.7, 0.2); allowed: one inside the triangle of the phosphors and above y = 0");
+    EXPECT_EQ(error({{0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}, d65_white, 0}),
+              "luminance of white 0; allowed: a number above 0");
+    EXPECT_EQ(error({{0.64, 0.33}, {0.30, 0.60}, {0.15, NAN}, d65_white}),
+              "chromaticity (0.15, nan); allowed: numbers from -2 to 2");
+    EXPECT_FALSE(make_rgb_space({{0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}, {0.64, 0.33}})) << "white on a corner";
+}
+
+TEST(XyY, ComesBack) {
+    const Xyz xyz(12, 34, 5);
+    EXPECT_NEAR(glm::distance(xyz_from_chromaticity(chromaticity(xyz), xyz.y), xyz), 0, 1e-13);
+    EXPECT_EQ(xyz_from_chromaticity({0, 0}, 1), Xyz(0));
 }
 
 TEST(SrgbCurve, HasTheStandardsValues) {

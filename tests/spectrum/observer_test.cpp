@@ -1,9 +1,11 @@
 // The CIE 1931 observer against its published sums and the chromaticities of the standard illuminants.
 #include <gtest/gtest.h>
+#include <vector>
 
 #include "core/spectrum/colour.h"
 #include "core/spectrum/observer.h"
 #include "core/spectrum/rgb_spectrum.h"
+#include "tests/spectrum/illuminants.h"
 
 namespace lueur {
 namespace {
@@ -33,6 +35,18 @@ TEST(Observer, HasTheTablesValuesAndIsZeroOutside) {
     EXPECT_EQ(observer_xyz(360.0), observer_xyz(360));
     const Xyz middle = (observer_xyz(500) + observer_xyz(501)) / 2.0;
     EXPECT_NEAR(glm::distance(observer_xyz(500.5), middle), 0, 1e-15);
+}
+
+TEST(Observer1964, SumsAndPeakAreThePublishedOnes) {
+    Xyz sum(0); // CIE 15:2018: 116.649, 116.662, 116.674 nm at 1 nm
+    for (int nm = observer_first_nm; nm <= observer_last_nm; ++nm) sum += observer_xyz(nm, Observer::cie1964_10degree);
+    EXPECT_NEAR(sum.x, 116.649, 5e-4);
+    EXPECT_NEAR(sum.y, 116.662, 5e-4);
+    EXPECT_NEAR(sum.z, 116.674, 5e-4);
+    EXPECT_EQ(observer_xyz(557, Observer::cie1964_10degree).y, 1) << "ybar10 peaks at 557 nm with 1";
+    EXPECT_EQ(observer_xyz(360, Observer::cie1964_10degree), Xyz(1.222e-07, 1.3398e-08, 5.35027e-07));
+    EXPECT_EQ(observer_xyz(831, Observer::cie1964_10degree), Xyz(0));
+    EXPECT_NE(observer_xyz(500), observer_xyz(500, Observer::cie1964_10degree));
 }
 
 TEST(Photometry, ALineAt555NmHas683LumenAWatt) {
@@ -77,6 +91,52 @@ TEST(Chromaticity, OfIlluminantD65IsThePublishedOne) {
     EXPECT_EQ(value_at(illuminant_d65(), 560, Outside::zero), 100);
     EXPECT_EQ(illuminant_d65().nm.front(), 300);
     EXPECT_EQ(illuminant_d65().nm.back(), 780);
+}
+
+// Two independent computations of each published illuminant: summed at 5 nm as CIE 15 does, and as a spectrum that is
+// linear between its samples, summed at 1 nm.
+TEST(Chromaticity, OfPublishedIlluminantsIsTheReference) {
+    for (const PublishedIlluminant& illuminant : published_illuminants) {
+        const Chromaticity lines = chromaticity(xyz_from_spectrum(line_spectrum(illuminant.name)));
+        EXPECT_NEAR(lines.x, illuminant.summed_at_5nm.x, 1e-8) << illuminant.name;
+        EXPECT_NEAR(lines.y, illuminant.summed_at_5nm.y, 1e-8) << illuminant.name;
+        const Spectrum linear = linear_spectrum(illuminant.name);
+        std::vector<double> nm, power;
+        for (int at = 380; at <= 780; ++at) {
+            for (const double place : {-1e-4, 0.0, 1e-4}) nm.push_back(at + place);
+            for (const double peak : {0.0, 1e4, 0.0}) power.push_back(peak * value_at(linear, at, Outside::zero));
+        }
+        const Chromaticity at_1nm = chromaticity(xyz_from_spectrum(*make_spectrum(nm, power)));
+        EXPECT_NEAR(at_1nm.x, illuminant.linear_at_1nm.x, 1e-8) << illuminant.name;
+        EXPECT_NEAR(at_1nm.y, illuminant.linear_at_1nm.y, 1e-8) << illuminant.name;
+        const Chromaticity exact = chromaticity(xyz_from_spectrum(linear)); // the 1 nm sum is a trapezoidal rule of it
+        EXPECT_NEAR(exact.x, illuminant.linear_at_1nm.x, 2e-5) << illuminant.name;
+        EXPECT_NEAR(exact.y, illuminant.linear_at_1nm.y, 2e-5) << illuminant.name;
+    }
+}
+
+TEST(Chromaticity, OfIlluminantsIsThatOfTheStandard) {
+    // CIE 15:2018: x, y and x10, y10.
+    struct Row {
+        const char* name;
+        Chromaticity two_degree, ten_degree;
+    };
+    for (const auto& [name, two, ten] : {
+             Row{"A", {0.44758, 0.40745}, {0.45117, 0.40594}},
+             Row{"C", {0.31006, 0.31616}, {0.31039, 0.31905}},
+             Row{"D50", {0.34567, 0.35851}, {0.34773, 0.35952}},
+             Row{"D55", {0.33243, 0.34744}, {0.33412, 0.34877}},
+             Row{"D65", {0.31272, 0.32903}, {0.31381, 0.33098}},
+             Row{"D75", {0.29903, 0.31488}, {0.29968, 0.31740}},
+         }) {
+        const Spectrum spectrum = line_spectrum(name);
+        const Chromaticity xy = chromaticity(xyz_from_spectrum(spectrum));
+        const Chromaticity xy10 = chromaticity(xyz_from_spectrum(spectrum, Observer::cie1964_10degree));
+        EXPECT_NEAR(xy.x, two.x, 1.5e-5) << name; // half a digit, and the table ends at 780 nm
+        EXPECT_NEAR(xy.y, two.y, 1.5e-5) << name;
+        EXPECT_NEAR(xy10.x, ten.x, 1.5e-5) << name;
+        EXPECT_NEAR(xy10.y, ten.y, 1.5e-5) << name;
+    }
 }
 
 TEST(Chromaticity, OfEqualEnergyIsOneThirdAndOfBlackIsZero) {

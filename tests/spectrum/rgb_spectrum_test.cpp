@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
+#include "core/spectrum/chromatic_adaptation.h"
 #include "core/spectrum/colour.h"
 #include "core/spectrum/observer.h"
 #include "core/spectrum/rgb_spectrum.h"
@@ -11,7 +12,8 @@
 namespace lueur {
 namespace {
 
-// Linear sRGB of a reflectance under D65, of which the perfect reflector has (1,1,1): sampled each 0.5 nm.
+// Linear sRGB of a reflectance under D65 to an eye adapted to the table's white, (0.31272, 0.32903), which is in the
+// fifth digit not sRGB's: the perfect reflector has (1,1,1). Sampled each 0.5 nm.
 Rgb rgb_under_d65(const Spectrum& reflectance) {
     Xyz sum(0), white(0);
     for (int i = 720; i <= 1560; ++i) {
@@ -21,7 +23,8 @@ Rgb rgb_under_d65(const Spectrum& reflectance) {
         sum += weight * value_at(reflectance, nm, Outside::constant) * light;
         white += weight * light;
     }
-    return (rgb_from_xyz(srgb) * sum) / (rgb_from_xyz(srgb) * white);
+    const Xyz srgb_white = xyz_from_rgb(srgb) * Rgb(1);
+    return rgb_from_xyz(srgb) * (bradford_adaptation(white, srgb_white) * sum);
 }
 
 double largest_difference(const Rgb& a, const Rgb& b) {
