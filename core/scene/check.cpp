@@ -26,24 +26,14 @@ bool finite(const glm::dvec3& v) {
 }
 
 void check_material(Checker& checker, const Material& material) {
-    const std::string what = fmt::format("material \"{}\": reflectance", material.name);
-    if (const double* grey = std::get_if<double>(&material.reflectance)) checker.range(*grey, 0, 1, what, "0..1");
-    if (const Rgb* rgb = std::get_if<Rgb>(&material.reflectance))
-        for (int k = 0; k < 3; ++k) checker.range((*rgb)[k], 0, 1, what, "0..1");
-    if (const auto* file = std::get_if<SpectrumFile>(&material.reflectance)) {
-        checker.expect(!file->spectrum.nm.empty(), what + " has no samples", "at least one");
-        for (const double value : file->spectrum.value)
-            if (!(value >= 0 && value <= 1)) {
-                checker.range(value, 0, 1, what, "0..1");
-                break;
-            }
-    }
+    for (const std::string& fault : faults_of(material.reflectance))
+        checker.faults.push_back(fmt::format("material \"{}\": {}", material.name, fault));
     if (material.texture)
         checker.expect(material.texture->image != nullptr,
                        fmt::format("material \"{}\": the texture has no picture", material.name), "a picture");
 }
 
-void check_luminaire(Checker& checker, const Scene& scene, const Luminaire& luminaire, const Wavelengths& wavelengths) {
+void check_luminaire(Checker& checker, const Scene& scene, const Luminaire& luminaire) {
     const std::string what = fmt::format("luminaire \"{}\": ", luminaire.name);
     const std::size_t before = checker.faults.size();
     checker.range(luminaire.power, 0, 1e12, what + "power", "0..1e12");
@@ -52,27 +42,14 @@ void check_luminaire(Checker& checker, const Scene& scene, const Luminaire& lumi
     for (const ObjectIndex object : luminaire.objects)
         checker.expect(at(object) < scene.objects.size(), fmt::format("{}object {} is not there", what, at(object)),
                        "an object of the scene");
-    if (const Rgb* rgb = std::get_if<Rgb>(&luminaire.spectrum))
-        for (int k = 0; k < 3; ++k) checker.range((*rgb)[k], 0, 1e12, what + "spectrum", "0..1e12");
-    if (const auto* file = std::get_if<SpectrumFile>(&luminaire.spectrum)) {
-        checker.expect(!file->spectrum.nm.empty(), what + "the spectrum has no samples", "at least one");
-        for (const double value : file->spectrum.value)
-            if (!(value >= 0)) {
-                checker.range(value, 0, 1e12, what + "spectrum", "0 or more");
-                break;
-            }
-    }
-    if (const auto* body = std::get_if<Blackbody>(&luminaire.spectrum))
-        checker.range(body->kelvin, 1000, 25000, what + "blackbody", "1000..25000 K");
+    for (const std::string& fault : faults_of(luminaire.spectrum)) checker.faults.push_back(what + fault);
     if (checker.faults.size() != before || luminaire.power == 0 || luminaire.dimmer == 0) return;
     if (!(emitting_area(scene, luminaire) > 0)) {
         checker.faults.push_back(what + "its objects have no area, so it emits nothing");
         return;
     }
-    const std::vector<double> exitance = exitance_channels(scene, luminaire, wavelengths);
-    if (std::none_of(exitance.begin(), exitance.end(), [](double channel) { return channel != 0; }))
-        checker.faults.push_back(
-            fmt::format("{}its spectrum has no power in {}, so it emits nothing", what, to_string(wavelengths.spec)));
+    if (!(radiant_flux(scene, luminaire) > 0))
+        checker.faults.push_back(what + "its spectrum has no power in 380..780 nm, so it emits nothing");
 }
 
 } // namespace
@@ -84,8 +61,7 @@ std::vector<std::string> check(const Scene& scene) {
         checker.expect(at(object.material) < scene.materials.size(),
                        fmt::format("object \"{}\": material {} is not there", object.name, at(object.material)),
                        "a material of the scene");
-    const Wavelengths wavelengths = make_wavelengths(scene.solve.wavelengths);
-    for (const Luminaire& luminaire : scene.luminaires) check_luminaire(checker, scene, luminaire, wavelengths);
+    for (const Luminaire& luminaire : scene.luminaires) check_luminaire(checker, scene, luminaire);
 
     const Camera& camera = scene.camera;
     checker.expect(finite(camera.position) && finite(camera.target) && finite(camera.up),
@@ -101,6 +77,9 @@ std::vector<std::string> check(const Scene& scene) {
     const SolveSettings& solve = scene.solve;
     checker.expect(solve.target_error > 0 && solve.target_error <= 1,
                    fmt::format("solve: target error is {}", solve.target_error), "more than 0, at most 1");
+    checker.expect(solve.colour_error > 0 && solve.colour_error <= 100,
+                   fmt::format("solve: colour error is {}", solve.colour_error),
+                   "more than 0, at most 100 (CIEDE2000)");
     checker.range(solve.element_size, 0, 1e12, "solve: element size", "0 or more");
     checker.range(solve.max_rays, 1, 1 << 20, "solve: most rays a receiver", "1..1048576");
     for (const std::string& fault : check(scene.display)) checker.faults.push_back(fault);

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/spectrum/observer.h"
-#include "core/spectrum/overload.h"
 
 namespace lueur {
 
@@ -11,23 +10,11 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-// Equal energy over the range that one unit of RGB white is spread over (wavelengths.h).
-const Spectrum& flat_spectrum() {
-    static const Spectrum flat{{380, 780}, {1, 1}};
-    return flat;
-}
-
-// The spectrum as samples; none for an Rgb, which is its own channels.
-std::optional<Spectrum> samples(const EmissionSpectrum& emission) {
-    return std::visit(Overload{[](const Flat&) { return std::optional(flat_spectrum()); },
-                               [](const Rgb&) { return std::optional<Spectrum>(); },
-                               [](const SpectrumFile& file) { return std::optional(file.spectrum); },
-                               [](const Blackbody& body) { return std::optional(blackbody(body.kelvin)); }},
-                      emission);
-}
+// What counts as watts (scene.h): the range of all channels.
+constexpr double first_watt_nm = 380, last_watt_nm = 780;
 
 double own_integral(const Spectrum& spectrum) {
-    return spectrum.nm.empty() ? 0 : integral(spectrum, spectrum.nm.front(), spectrum.nm.back(), Outside::zero);
+    return integral(spectrum, first_watt_nm, last_watt_nm, Outside::zero);
 }
 
 double ratio(double numerator, double denominator) {
@@ -39,7 +26,7 @@ struct Fluxes {
     double lumens = 0, watts = 0;
 };
 Fluxes relative_fluxes(const EmissionSpectrum& emission) {
-    if (const auto spectrum = samples(emission)) return {xyz_from_spectrum(*spectrum).y, own_integral(*spectrum)};
+    if (const auto spectrum = spectrum_of(emission)) return {xyz_from_spectrum(*spectrum).y, own_integral(*spectrum)};
     const Wavelengths rgb = make_wavelengths({WavelengthRule::rgb, 3});
     const std::vector<double> channels = emission_channels(rgb, std::get<Rgb>(emission));
     return {xyz_from_channels(rgb, channels).y, watts_from_channels(rgb, channels)};
@@ -48,7 +35,7 @@ Fluxes relative_fluxes(const EmissionSpectrum& emission) {
 // What the relative spectrum is multiplied by to become W m^-2 nm^-1, at dimmer 1, for a unit that counts emitted
 // energy itself.
 double exitance_scale(const Luminaire& luminaire, double exitance) {
-    const auto spectrum = samples(luminaire.spectrum);
+    const auto spectrum = spectrum_of(luminaire.spectrum);
     return spectrum ? ratio(exitance, own_integral(*spectrum)) : exitance;
 }
 
@@ -89,7 +76,7 @@ double emitting_area(const Scene& scene, const Luminaire& luminaire) {
 }
 
 std::vector<double> exitance_channels(const Scene& scene, const Luminaire& luminaire, const Wavelengths& wavelengths) {
-    const auto spectrum = samples(luminaire.spectrum);
+    const auto spectrum = spectrum_of(luminaire.spectrum);
     std::vector<double> channels = spectrum ? emission_channels(wavelengths, *spectrum)
                                             : emission_channels(wavelengths, std::get<Rgb>(luminaire.spectrum));
     const auto per_square_metre = [&] { return ratio(luminaire.power, emitting_area(scene, luminaire)); };
@@ -113,11 +100,10 @@ std::vector<double> exitance_channels(const Scene& scene, const Luminaire& lumin
 }
 
 std::vector<double> reflectance_channels(const Reflectance& reflectance, const Wavelengths& wavelengths) {
-    return std::visit(
-        Overload{[&](double grey) { return std::vector<double>(static_cast<std::size_t>(wavelengths.size()), grey); },
-                 [&](const Rgb& rgb) { return reflectance_channels(wavelengths, rgb); },
-                 [&](const SpectrumFile& file) { return reflectance_channels(wavelengths, file.spectrum); }},
-        reflectance);
+    if (const double* grey = std::get_if<double>(&reflectance))
+        return std::vector<double>(static_cast<std::size_t>(wavelengths.size()), *grey);
+    if (const Rgb* rgb = std::get_if<Rgb>(&reflectance)) return reflectance_channels(wavelengths, *rgb);
+    return reflectance_channels(wavelengths, spectrum_of(reflectance));
 }
 
 std::vector<std::optional<LuminaireIndex>> luminaire_of_objects(const Scene& scene) {

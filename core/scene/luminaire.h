@@ -20,6 +20,6 @@ std::vector<double> reflectance_channels(const Reflectance& reflectance, const W
 std::vector<std::optional<LuminaireIndex>> luminaire_of_objects(const Scene& scene);
 
 double luminous_flux(const Scene& scene, const Luminaire& luminaire); // lm, dimmer included
-double radiant_flux(const Scene& scene, const Luminaire& luminaire);  // W, over the spectrum's own grid
+double radiant_flux(const Scene& scene, const Luminaire& luminaire);  // W within 380..780 nm
 
 } // namespace lueur

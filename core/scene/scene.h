@@ -19,7 +19,7 @@
 
 #include "core/display/display.h"
 #include "core/display/image_file.h"
-#include "core/spectrum/spectrum.h"
+#include "core/scene/spectra.h"
 #include "core/spectrum/wavelengths.h"
 
 namespace lueur {
@@ -33,24 +33,6 @@ template <typename Index>
 constexpr std::size_t at(Index index) {
     return static_cast<std::size_t>(index);
 }
-
-// A spectrum read from a file. `path` is as written in the scene file; `spectrum` what was read.
-struct SpectrumFile {
-    std::string path;
-    std::string column; // empty: the file's first
-    Spectrum spectrum;
-    bool operator==(const SpectrumFile&) const = default;
-};
-struct Blackbody {
-    double kelvin = 2700; // 1000..25000
-    bool operator==(const Blackbody&) const = default;
-};
-struct Flat { // equal energy at every wavelength (CIE illuminant E)
-    bool operator==(const Flat&) const = default;
-};
-
-using Reflectance = std::variant<double, Rgb, SpectrumFile>;               // each 0..1; Rgb is linear sRGB
-using EmissionSpectrum = std::variant<Flat, Rgb, SpectrumFile, Blackbody>; // relative, see PowerUnit
 
 struct Texture {
     std::string path; // as written in the scene file; "office.glb*0" is the first picture inside that file
@@ -70,8 +52,9 @@ struct Material {
 };
 
 // What `power` counts. With lumen and watt the spectrum is a shape only, scaled so that the luminaire emits that flux
-// in total. With exitance [W m^-2] a Flat, SpectrumFile or Blackbody is scaled to that integral; an Rgb is power * rgb,
-// channel by channel. radiance [W m^-2 sr^-1] is exitance / pi (OBJ Ke, glTF emissive).
+// in total. With exitance [W m^-2] a spectrum is scaled to that integral; an Rgb is power * rgb, channel by channel.
+// radiance [W m^-2 sr^-1] is exitance / pi (OBJ Ke, glTF emissive). Watts are those of 380..780 nm: what a spectrum has
+// in the ultraviolet and the infrared is kept, and counts in no figure.
 enum class PowerUnit { lumen, watt, exitance, radiance };
 enum class EmitSide { front, back, both };
 
@@ -160,10 +143,12 @@ enum class SolverKind { gathering, shooting };
 
 struct SolveSettings {
     SolverKind solver = SolverKind::gathering;
-    WavelengthsSpec wavelengths;
-    double target_error = 0.02; // relative RMS error of irradiance at which the worker sleeps
-    double element_size = 0;    // largest coarse element edge in metres; 0: chosen from the scene's area
-    int max_rays = 512;         // gather rays a receiver, at most
+    WavelengthsSpec wavelengths{WavelengthRule::automatic, 0};
+    double colour_error = 0.5;         // CIEDE2000: the worst colour difference that auto wavelengths may be predicted
+    bool compare_trichromatic = false; // the lecture's RGB approach is solved beside, on the same rays
+    double target_error = 0.02;        // relative RMS error of irradiance at which the worker sleeps
+    double element_size = 0;           // largest coarse element edge in metres; 0: chosen from the scene's area
+    int max_rays = 512;                // gather rays a receiver, at most
     std::uint32_t seed = 1;
     bool operator==(const SolveSettings&) const = default;
 };

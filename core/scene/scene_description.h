@@ -65,8 +65,9 @@ struct SceneDescription {
 };
 
 // Errors go to `diagnostics` under the name `file`; nothing at all only where the text is not TOML. Spectrum files are
-// read from `folder`.
+// read from `folder`, and what is of the program's own library from `library`.
 std::optional<SceneDescription> read_toml_scene(const std::string& text, const std::string& file,
-                                                const std::filesystem::path& folder, Diagnostics& diagnostics);
+                                                const std::filesystem::path& folder,
+                                                const std::filesystem::path& library, Diagnostics& diagnostics);
 
 } // namespace lueur

@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::optional<Scene> load_toml(const fs::path& file, Diagnostics& diagnostics) {
+std::optional<Scene> load_toml(const fs::path& file, const LoadParams& params, Diagnostics& diagnostics) {
     const std::string name = file.string();
     const auto text = read_bytes(file);
     if (!text) {
@@ -22,7 +22,8 @@ std::optional<Scene> load_toml(const fs::path& file, Diagnostics& diagnostics) {
         diagnostics.error(name, {}, "is empty; a scene needs units and at least one [[geometry]] or [[polygon]]");
         return {};
     }
-    std::optional<SceneDescription> description = read_toml_scene(*text, name, file.parent_path(), diagnostics);
+    std::optional<SceneDescription> description =
+        read_toml_scene(*text, name, file.parent_path(), params.spectrum_library, diagnostics);
     if (!description) return {};
     if (description->name.empty()) description->name = file.stem().string();
     return build_scene(*description, name, file.parent_path(), diagnostics);
@@ -39,14 +40,14 @@ std::optional<Scene> load_geometry_as_scene(const fs::path& file, Diagnostics& d
 
 } // namespace
 
-std::expected<LoadedScene, std::vector<std::string>> load_scene(const fs::path& file) {
+std::expected<LoadedScene, std::vector<std::string>> load_scene(const fs::path& file, const LoadParams& params) {
     Diagnostics diagnostics;
     std::optional<Scene> scene;
     const std::string extension = lower_case_extension(file);
     if (const auto why = why_unreadable(file))
         diagnostics.error(file.string(), {}, *why + "; a .toml, .obj, .gltf or .glb file is allowed");
     else if (extension == ".toml")
-        scene = load_toml(file, diagnostics);
+        scene = load_toml(file, params, diagnostics);
     else if (extension == ".obj" || extension == ".gltf" || extension == ".glb")
         scene = load_geometry_as_scene(file, diagnostics);
     else

@@ -3,6 +3,8 @@
 
 #include "core/scene/files.h"
 #include "core/scene/scene_description.h"
+#include "core/scene/toml_display.h"
+#include "core/scene/toml_spectra.h"
 #include "core/scene/toml_values.h"
 #include "core/scene/units.h"
 
@@ -11,7 +13,6 @@ namespace lueur {
 namespace {
 
 const NumberRange any_number{-1e9, 1e9, true, "-1e9..1e9"};
-const NumberRange unit_interval{0, 1, true, "0..1"};
 const NumberRange not_negative{0, 1e12, true, "0..1e12"};
 
 const std::vector<std::pair<std::string, LengthUnit>> unit_words{{"metre", LengthUnit::metre},
@@ -21,13 +22,9 @@ const std::vector<std::pair<std::string, LengthUnit>> unit_words{{"metre", Lengt
                                                                  {"inch", LengthUnit::inch}};
 const std::vector<std::pair<std::string, UpAxis>> up_words{{"y", UpAxis::y}, {"z", UpAxis::z}};
 
-Rgb rgb_from(const std::vector<double>& numbers) {
-    return {numbers[0], numbers[1], numbers[2]};
-}
-
 struct Reader {
     TomlFile file;
-    std::filesystem::path folder;
+    TomlSpectra spectra;
     SceneDescription scene;
 
     void read(const toml::table& root);
@@ -46,9 +43,6 @@ private:
     void read_display(const toml::table& table);
     void read_solve(const toml::table& table);
 
-    std::optional<SpectrumFile> read_spectrum_file(const toml::table& table, const std::string& what);
-    std::optional<Reflectance> read_reflectance(const toml::node& node);
-    std::optional<EmissionSpectrum> read_emission(const toml::node& node);
     void read_power(const toml::node& node, Luminaire& luminaire);
 };
 
@@ -155,62 +149,12 @@ void Reader::read_object(const toml::table& node) {
     if (name && material) scene.objects.push_back({*name, *material});
 }
 
-// { file = "...", column = "..." }
-std::optional<SpectrumFile> Reader::read_spectrum_file(const toml::table& node, const std::string& what) {
-    TomlTable table(file, node, what);
-    const auto path = placed_name(table, "file", "the path of a .csv spectrum is needed");
-    SpectrumFile spectrum;
-    if (const toml::node* column = table.find("column"))
-        spectrum.column = read_text(file, *column, "column").value_or("");
-    table.finish();
-    if (!path) return {};
-    spectrum.path = path->name;
-    const std::filesystem::path full = folder / path->name;
-    if (const auto why = why_unreadable(full)) {
-        file.diagnostics.error(file.name, path->place, fmt::format("spectrum file \"{}\" {}", path->name, *why));
-        return {};
-    }
-    auto read = read_spectrum_csv(full, spectrum.column);
-    if (!read) {
-        file.diagnostics.error(file.name, path->place, fmt::format("spectrum file \"{}\" has errors:", path->name));
-        for (std::string& line : read.error()) file.diagnostics.errors.push_back(std::move(line));
-        return {};
-    }
-    spectrum.spectrum = std::move(*read);
-    return spectrum;
-}
-
-std::optional<Reflectance> Reader::read_reflectance(const toml::node& node) {
-    if (node.is_array()) {
-        const auto rgb = read_numbers(file, node, 3, unit_interval, "reflectance");
-        return rgb ? std::optional<Reflectance>(rgb_from(*rgb)) : std::nullopt;
-    }
-    if (const toml::table* table = node.as_table()) {
-        auto spectrum = read_spectrum_file(*table, "reflectance");
-        if (!spectrum) return {};
-        for (std::size_t i = 0; i < spectrum->spectrum.nm.size(); ++i)
-            if (const double value = spectrum->spectrum.value[i]; !(value >= 0 && value <= 1)) {
-                file.error(node, fmt::format("reflectance in \"{}\" is {} at {} nm; 0..1 is allowed", spectrum->path,
-                                             value, spectrum->spectrum.nm[i]));
-                return {};
-            }
-        return std::optional<Reflectance>(std::move(*spectrum));
-    }
-    if (!node.is_number()) {
-        file.error(
-            node, "reflectance is neither a number 0..1 nor [r, g, b] nor { file = \"paints.csv\", column = \"red\" }");
-        return {};
-    }
-    const auto number = read_number(file, node, unit_interval, "reflectance");
-    return number ? std::optional<Reflectance>(*number) : std::nullopt;
-}
-
 void Reader::read_material(const toml::table& node) {
     TomlTable table(file, node, "[[material]]");
     MaterialEntry entry;
     const auto name = placed_name(table, "name", "a name is needed");
     if (const toml::node* reflectance = table.find("reflectance")) {
-        entry.reflectance = read_reflectance(*reflectance);
+        entry.reflectance = spectra.reflectance(*reflectance);
         if (!entry.reflectance) entry.reflectance = 0.5; // told; not to be told again as missing
     }
     if (const auto path = table.text("texture")) entry.texture = TextureEntry{*path, place_of(*node.get("texture"))};
@@ -223,40 +167,6 @@ void Reader::read_material(const toml::table& node) {
     }
     entry.name = *name;
     scene.materials.push_back(std::move(entry));
-}
-
-std::optional<EmissionSpectrum> Reader::read_emission(const toml::node& node) {
-    if (const auto* word = node.as_string()) {
-        if (word->get() == "flat") return Flat{};
-        file.error(node, fmt::format("spectrum = \"{}\" is not known; \"flat\", [r, g, b], {{ file = \"lamp.csv\" }} "
-                                     "or {{ blackbody = 2700 }} is allowed",
-                                     word->get()));
-        return {};
-    }
-    if (node.is_array()) {
-        const auto rgb = read_numbers(file, node, 3, not_negative, "spectrum");
-        return rgb ? std::optional<EmissionSpectrum>(rgb_from(*rgb)) : std::nullopt;
-    }
-    const toml::table* inner = node.as_table();
-    if (!inner) {
-        file.error(node, "spectrum is not \"flat\", [r, g, b], { file = \"lamp.csv\" } or { blackbody = 2700 }");
-        return {};
-    }
-    if (inner->contains("blackbody")) {
-        TomlTable table(file, *inner, "spectrum");
-        const auto kelvin = table.number("blackbody", {1000, 25000, true, "1000..25000 K"});
-        table.finish();
-        return kelvin ? std::optional<EmissionSpectrum>(Blackbody{*kelvin}) : std::nullopt;
-    }
-    auto spectrum = read_spectrum_file(*inner, "spectrum");
-    if (!spectrum) return {};
-    for (std::size_t i = 0; i < spectrum->spectrum.nm.size(); ++i)
-        if (spectrum->spectrum.value[i] < 0) {
-            file.error(node, fmt::format("emission in \"{}\" is {} at {} nm; 0 or more is allowed", spectrum->path,
-                                         spectrum->spectrum.value[i], spectrum->spectrum.nm[i]));
-            return {};
-        }
-    return std::optional<EmissionSpectrum>(std::move(*spectrum));
 }
 
 void Reader::read_power(const toml::node& node, Luminaire& luminaire) {
@@ -292,7 +202,7 @@ void Reader::read_luminaire(const toml::table& node) {
                     entry.objects.push_back({*object, place_of(element)});
     }
     if (const toml::node* spectrum = table.find("spectrum"))
-        if (auto read = read_emission(*spectrum)) entry.luminaire.spectrum = std::move(*read);
+        if (auto read = spectra.emission(*spectrum)) entry.luminaire.spectrum = std::move(*read);
     if (const toml::node* power =
             table.require("power", "{ lumen = 3000 }, { watt = 40 }, { exitance = 1 } or { radiance = 1 } is needed"))
         read_power(*power, entry.luminaire);
@@ -336,21 +246,7 @@ void Reader::read_camera(const toml::table& node) {
 
 void Reader::read_display(const toml::table& node) {
     TomlTable table(file, node, "[display]");
-    DisplaySettings& display = scene.display;
-    display.max_display =
-        table.number("max_display", {0, 1e12, false, "more than 0, at most 1e12"}).value_or(display.max_display);
-    display.max_display_auto = table.boolean("auto").value_or(display.max_display_auto);
-    display.max_display_locked = table.boolean("locked").value_or(display.max_display_locked);
-    std::vector<std::pair<std::string, ClipRule>> clips;
-    for (const ClipRule rule :
-         {ClipRule::clamp, ClipRule::keep_chromaticity, ClipRule::desaturate, ClipRule::scale_all})
-        clips.emplace_back(to_string(rule), rule);
-    display.clip = table.choice("clip", clips).value_or(display.clip);
-    std::vector<std::pair<std::string, TransferCurve>> curves;
-    for (const TransferCurve curve : {TransferCurve::srgb, TransferCurve::gamma})
-        curves.emplace_back(to_string(curve), curve);
-    display.curve = table.choice("curve", curves).value_or(display.curve);
-    display.gamma = table.number("gamma", {0.1, 10, true, "0.1..10"}).value_or(display.gamma);
+    read_toml_display(table, scene.display);
     table.finish();
 }
 
@@ -366,6 +262,9 @@ void Reader::read_solve(const toml::table& node) {
         else
             file.error(*node.get("wavelengths"), spec.error());
     }
+    solve.colour_error =
+        table.number("colour_error", {0, 100, false, "more than 0, at most 100"}).value_or(solve.colour_error);
+    solve.compare_trichromatic = table.boolean("compare_trichromatic").value_or(solve.compare_trichromatic);
     solve.target_error =
         table.number("target_error", {0, 1, false, "more than 0, at most 1"}).value_or(solve.target_error);
     const auto element_size = table.number("element_size", not_negative);
@@ -407,10 +306,12 @@ void Reader::read(const toml::table& root) {
 } // namespace
 
 std::optional<SceneDescription> read_toml_scene(const std::string& text, const std::string& file,
-                                                const std::filesystem::path& folder, Diagnostics& diagnostics) {
+                                                const std::filesystem::path& folder,
+                                                const std::filesystem::path& library, Diagnostics& diagnostics) {
     try {
         const toml::table root = toml::parse(std::string_view(text));
-        Reader reader{{file, diagnostics}, folder, {}};
+        const TomlFile source{file, diagnostics};
+        Reader reader{source, TomlSpectra(source, folder, library), {}};
         reader.read(root);
         return std::move(reader.scene);
     } catch (const toml::parse_error& error) {

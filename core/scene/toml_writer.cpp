@@ -8,8 +8,8 @@
 
 #include "core/scene/files.h"
 #include "core/scene/scene_file.h"
+#include "core/scene/toml_display.h"
 #include "core/scene/units.h"
-#include "core/spectrum/overload.h"
 
 namespace lueur {
 
@@ -114,9 +114,38 @@ struct Writer {
         return numbers(file_from_world(point, scene.unit, scene.up));
     }
 
-    std::string spectrum_file(const SpectrumFile& file) const {
-        if (file.column.empty()) return fmt::format("{{ file = {} }}", path(file.path));
-        return fmt::format("{{ file = {}, column = {} }}", path(file.path), quoted(file.column));
+    std::string spectrum(const SpectrumFile& file) const {
+        const std::string column = file.column.empty() ? "" : ", column = " + quoted(file.column);
+        const bool bin = file.spectrum.interpolation == Interpolation::bin;
+        return fmt::format("{{ file = {}{}{} }}", path(file.path), column, bin ? ", interpolation = \"bin\"" : "");
+    }
+    std::string spectrum(const LibrarySpectrum& library) const {
+        return fmt::format("{{ library = {} }}", quoted(library.name));
+    }
+    std::string spectrum(const Drawn& drawn) const {
+        std::vector<glm::dvec2> points;
+        for (std::size_t i = 0; i < drawn.spectrum.nm.size(); ++i)
+            points.emplace_back(drawn.spectrum.nm[i], drawn.spectrum.value[i]);
+        return fmt::format("{{ points = {} }}", list(points));
+    }
+    std::string spectrum(double grey) const { return number(grey); }
+    std::string spectrum(const Rgb& colour) const { return numbers(colour); }
+    std::string spectrum(const Flat&) const { return "\"flat\""; }
+    std::string spectrum(const Blackbody& body) const {
+        return fmt::format("{{ blackbody = {} }}", number(body.kelvin));
+    }
+    std::string spectrum(const Daylight& day) const { return fmt::format("{{ daylight = {} }}", number(day.kelvin)); }
+    std::string spectrum(const Lines& lines) const {
+        std::string each;
+        for (const SpectralLine& one : lines.lines)
+            each += fmt::format("{}{{ nm = {}, width = {}, power = {} }}", each.empty() ? "" : ", ", number(one.nm),
+                                number(one.width), number(one.power));
+        return fmt::format("{{ lines = [{}] }}", each);
+    }
+    std::string spectrum(const Mix& mix) const {
+        const auto one = [this](const auto& light) { return spectrum(light); };
+        return fmt::format("{{ mix = [{}, {}], share = {} }}", std::visit(one, mix.lights[0]),
+                           std::visit(one, mix.lights[1]), number(mix.share));
     }
 
     void source(const GeometryFile& file) {
@@ -168,10 +197,7 @@ struct Writer {
         line("name = {}", quoted(one.name));
         const Rgb* rgb = std::get_if<Rgb>(&one.reflectance);
         if (!one.texture || !rgb || *rgb != one.texture->mean)
-            line("reflectance = {}", std::visit(Overload{[](double grey) { return number(grey); },
-                                                         [](const Rgb& colour) { return numbers(colour); },
-                                                         [&](const SpectrumFile& file) { return spectrum_file(file); }},
-                                                one.reflectance));
+            line("reflectance = {}", std::visit([this](const auto& kind) { return spectrum(kind); }, one.reflectance));
         if (one.texture)
             line("texture = {}", path(one.texture->path));
         else if (imported_texture)
@@ -186,13 +212,7 @@ struct Writer {
         for (const ObjectIndex object : one.objects)
             names += (names.empty() ? "" : ", ") + quoted(scene.objects[at(object)].name);
         line("objects = [{}]", names);
-        line("spectrum = {}", std::visit(Overload{[](const Flat&) { return std::string("\"flat\""); },
-                                                  [](const Rgb& colour) { return numbers(colour); },
-                                                  [&](const SpectrumFile& file) { return spectrum_file(file); },
-                                                  [](const Blackbody& body) {
-                                                      return fmt::format("{{ blackbody = {} }}", number(body.kelvin));
-                                                  }},
-                                         one.spectrum));
+        line("spectrum = {}", std::visit([this](const auto& kind) { return spectrum(kind); }, one.spectrum));
         line("power = {{ {} = {} }}", power_word(one.unit), number(one.power));
         line("dimmer = {}", number(one.dimmer));
         line("side = \"{}\"", side_word(one.side));
@@ -207,19 +227,15 @@ struct Writer {
         line("vertical_fov_degrees = {}", number(camera.vertical_fov_degrees));
         line("mirrored = {}", truth(camera.mirrored));
 
-        const DisplaySettings& display = scene.display;
         line("\n[display]");
-        line("max_display = {}", number(display.max_display));
-        line("auto = {}", truth(display.max_display_auto));
-        line("locked = {}", truth(display.max_display_locked));
-        line("clip = \"{}\"", to_string(display.clip));
-        line("curve = \"{}\"", to_string(display.curve));
-        line("gamma = {}", number(display.gamma));
+        text += toml_from_display(scene.display);
 
         const SolveSettings& solve = scene.solve;
         line("\n[solve]");
         line("solver = \"{}\"", solver_word(solve.solver));
         line("wavelengths = \"{}\"", to_string(solve.wavelengths));
+        line("colour_error = {}", number(solve.colour_error));
+        line("compare_trichromatic = {}", truth(solve.compare_trichromatic));
         line("target_error = {}", number(solve.target_error));
         line("element_size = {}", number(length_from_metres(solve.element_size, scene.unit)));
         line("max_rays = {}", solve.max_rays);

@@ -93,8 +93,14 @@ TEST_F(SceneTest, CheckFindsWhatIsOutOfRange) {
         {[](Scene& s, double v) { s.camera.vertical_fov_degrees = v; }, {0, 180, nan}},
         {[](Scene& s, double v) { s.camera.position.x = v; }, {nan, INFINITY}},
         {[](Scene& s, double v) { s.camera.target = s.camera.position + glm::dvec3(0, v, 0); }, {0, 1, -5}},
-        {[](Scene& s, double v) { s.display.max_display = v; }, {0, -1, nan}},
-        {[](Scene& s, double v) { s.display.gamma = v; }, {0, 11, nan}},
+        {[](Scene& s, double v) { s.display.max_display = v; }, {0, -1, nan, 1e31, 1e-31}},
+        {[](Scene& s, double v) { s.display.gamma.b = v; }, {0, 11, nan, 1e-30, 1e30}},
+        {[](Scene& s, double v) { s.display.primaries.white.x = v; }, {0, 0.9, nan}},
+        {[](Scene& s, double v) { s.display.illuminance_scale.high = v; }, {1, 0, nan}},
+        {[](Scene& s, double v) {
+             s.display.luminance_scale.levels = {100, v};
+         },
+         {0, -1, nan}},
         {[](Scene& s, double v) { s.solve.target_error = v; }, {0, 1.5, nan}},
         {[](Scene& s, double v) { s.solve.element_size = v; }, {-1, nan}},
         {[](Scene& s, double v) { s.solve.max_rays = static_cast<int>(v); }, {0, -3}}};

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/spectrum/spectrum.h"
+#include "core/spectrum/read_spectrum.h"
 
 namespace lueur {
 namespace {
