@@ -1,12 +1,15 @@
 // The solution in channels -> XYZ at the vertices of the fine mesh.
+#include <cmath>
 #include <numbers>
 #include <span>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "core/scene/spectral_content.h"
 #include "core/solve/restriction.h"
 #include "core/solve/solution_state.h"
+#include "core/spectrum/colour_difference.h"
 
 namespace lueur {
 
@@ -14,107 +17,164 @@ namespace {
 
 using Range = tbb::blocked_range<std::uint32_t>;
 
-// XYZ of (weight_k * value_k) for one material: 3 numbers a channel.
-using ChannelWeights = std::vector<glm::vec3>;
+// XYZ of (weight_k * value_k): three numbers a channel, of some neighbouring channels.
+struct ChannelWeights {
+    std::size_t first = 0;
+    std::vector<glm::vec3> weight;
 
-ChannelWeights irradiance_weights(const Solution::State& s) {
-    ChannelWeights weights;
-    for (const Xyz& w : s.wavelengths.xyz_weight) weights.emplace_back(w);
+    glm::vec3 operator()(const float* channels) const {
+        glm::vec3 xyz(0);
+        for (std::size_t k = 0; k < weight.size(); ++k) xyz += weight[k] * channels[first + k];
+        return xyz;
+    }
+};
+
+ChannelWeights weights_of(const Wavelengths& wavelengths, std::size_t first, const double* factors, double scale) {
+    ChannelWeights weights{first, {}};
+    for (std::size_t k = 0; k < wavelengths.xyz_weight.size(); ++k)
+        weights.weight.emplace_back(scale * (factors ? factors[k] : 1.0) * wavelengths.xyz_weight[k]);
     return weights;
 }
 
-std::vector<ChannelWeights> reflected_weights(const Solution::State& s) {
-    std::vector<ChannelWeights> all;
-    for (const auto& rho : s.material_rho) {
-        ChannelWeights weights;
-        for (std::size_t k = 0; k < rho.size(); ++k)
-            weights.emplace_back(s.wavelengths.xyz_weight[k] * rho[k] / std::numbers::pi);
-        all.push_back(std::move(weights));
+// What one set of wavelengths makes of irradiance in channels, on each material.
+struct Shader {
+    struct OnMaterial {
+        ChannelWeights reflected;
+        std::array<ChannelWeights, 3> by_texel;
+        bool textured = false;
+    };
+    std::vector<OnMaterial> materials;
+    std::vector<glm::vec3> emitted; // of each luminaire
+    bool any_texture = false;
+
+    Shader(const Solution::State& s, const Wavelengths& wavelengths, std::size_t first) {
+        constexpr double per_steradian = 1 / std::numbers::pi;
+        for (std::size_t m = 0; m < s.material_rho.size(); ++m) {
+            OnMaterial on{weights_of(wavelengths, first, s.material_rho[m].data() + first, per_steradian), {}, false};
+            const Material& material = s.scene->materials[m];
+            if (material.texture && material.texture->image) {
+                on.textured = any_texture = true;
+                const auto texels = texel_channels(material, wavelengths);
+                for (std::size_t t = 0; t < 3; ++t)
+                    on.by_texel[t] = weights_of(wavelengths, first, texels[t].data(), per_steradian);
+            }
+            materials.push_back(std::move(on));
+        }
+        const ChannelWeights seen = weights_of(wavelengths, first, nullptr, per_steradian);
+        for (const auto& exitance : s.luminaire_exitance) {
+            const std::vector<float> channels(exitance.begin(), exitance.end());
+            emitted.push_back(seen(channels.data()));
+        }
     }
-    return all;
+
+    void shade(const Solution::State& s, const ChannelField& irradiance, Shades& shades) const {
+        const std::uint32_t count = irradiance.count;
+        shades.reflected_xyz.assign(count, glm::vec3(0));
+        shades.emitted_xyz.assign(count, glm::vec3(0));
+        if (any_texture) shades.reflected_by_texel.assign(count, glm::mat3(0));
+        tbb::parallel_for(Range(0, count, 512), [&](const Range& range) {
+            for (std::uint32_t v = range.begin(); v < range.end(); ++v) {
+                const MeshVertex& vertex = s.mesh.vertices[v];
+                const OnMaterial& on = materials[s.material_of(vertex.surface)];
+                shades.reflected_xyz[v] = on.reflected(irradiance[v]);
+                if (on.textured)
+                    for (int t = 0; t < 3; ++t)
+                        shades.reflected_by_texel[v][t] = on.by_texel[static_cast<std::size_t>(t)](irradiance[v]);
+                if (const auto luminaire = s.luminaire_of(vertex.surface, vertex.back))
+                    shades.emitted_xyz[v] = emitted[*luminaire];
+            }
+        });
+    }
+};
+
+// Irradiance of all vertices in channels: indirect light of the coarse ones, interpolated, and direct light.
+ChannelField irradiance_channels(const Solution::State& s, std::vector<float>& unshot) {
+    const Mesh& mesh = s.mesh;
+    const std::uint32_t count = static_cast<std::uint32_t>(mesh.vertices.size()), coarse = mesh.coarse_vertex_count;
+    const int channels = s.channels();
+    ChannelField h(count, channels);
+    unshot.assign(count, 0);
+    if (s.solving) {
+        const ChannelField& indirect = s.indirect();
+        const std::vector<float> ambient = s.ambient();
+        const bool shooting = s.scene->solve.solver == SolverKind::shooting;
+        if (shooting) {
+            const std::vector<float> left = s.shooting.unshot_at_vertices();
+            std::copy(left.begin(), left.end(), unshot.begin());
+        }
+        tbb::parallel_for(Range(0, coarse, 256), [&](const Range& range) {
+            for (std::uint32_t i = range.begin(); i < range.end(); ++i) {
+                for (int k = 0; k < channels; ++k) h[i][k] = indirect[i][k] + (ambient.empty() ? 0 : ambient[k]);
+                if (shooting) continue;
+                double y = 0;
+                for (int k = 0; k < s.wavelengths->size(); ++k)
+                    y += s.wavelengths->xyz_weight[k].y * s.system.residual()[s.receivers.of_vertex[i]][k];
+                unshot[i] = static_cast<float>(std::abs(y));
+            }
+        });
+        std::vector<glm::uvec3> coarse_elements;
+        for (std::uint32_t e = 0; e < mesh.coarse_element_count; ++e) coarse_elements.push_back(mesh.nodes[e].vertices);
+        fill_buried(coarse_elements, s.buried, h);
+        for (std::uint32_t v = coarse; v < count; ++v) { // parents come first
+            const auto& p = mesh.vertices[v].parents;
+            for (int k = 0; k < channels; ++k) h[v][k] = 0.5f * (h[p[0]][k] + h[p[1]][k]);
+            unshot[v] = 0.5f * (unshot[p[0]] + unshot[p[1]]);
+        }
+    }
+    const std::size_t emitters = s.direct->emitter_count();
+    std::vector<std::vector<float>> exitance(emitters);
+    for (std::size_t l = 0; l < emitters; ++l)
+        if (s.luminaire_is_lit(l)) exitance[l].assign(s.luminaire_exitance[l].begin(), s.luminaire_exitance[l].end());
+    tbb::parallel_for(Range(0, count, 512), [&](const Range& range) {
+        for (std::uint32_t v = range.begin(); v < range.end(); ++v) {
+            const float* d = s.direct->at_vertex(v);
+            for (std::size_t l = 0; l < emitters; ++l)
+                if (d[l] != 0)
+                    for (std::size_t k = 0; k < exitance[l].size(); ++k) h[v][k] += d[l] * exitance[l][k];
+        }
+    });
+    fill_buried(mesh.elements, s.all_buried(), h);
+    return h;
 }
 
-glm::vec3 weigh(const ChannelWeights& weights, const float* channels) {
-    glm::vec3 xyz(0);
-    for (std::size_t k = 0; k < weights.size(); ++k) xyz += weights[k] * channels[k];
-    return xyz;
+// White: what a perfect reflector shows of the light that arrives there.
+std::vector<float> colour_differences(const Field& field) {
+    std::vector<float> differences(field.irradiance_xyz.size(), 0);
+    tbb::parallel_for(std::size_t(0), differences.size(), [&](std::size_t v) {
+        const Xyz white = Xyz(field.irradiance_xyz[v]) / std::numbers::pi;
+        if (!(white.x > 0 && white.y > 0 && white.z > 0)) return;
+        const auto lab = [&](const Shades& shades) {
+            return lab_from_xyz(glm::max(Xyz(shades.reflected_xyz[v]), Xyz(0)), white);
+        };
+        differences[v] = static_cast<float>(delta_e_2000(lab(field), lab(*field.trichromatic)));
+    });
+    return differences;
 }
 
 } // namespace
 
 std::shared_ptr<const Field> compose_field(const Solution::State& s) {
     auto field = std::make_shared<Field>();
-    const Mesh& mesh = s.mesh;
-    const std::uint32_t count = static_cast<std::uint32_t>(mesh.vertices.size()), coarse = mesh.coarse_vertex_count;
-    field->irradiance_xyz.assign(count, glm::vec3(0));
-    field->reflected_xyz.assign(count, glm::vec3(0));
-    field->emitted_xyz.assign(count, glm::vec3(0));
-    field->unshot.assign(count, 0);
-    const ChannelWeights irradiance = irradiance_weights(s);
-    const std::vector<ChannelWeights> reflected = reflected_weights(s);
-
-    if (s.solving) {
-        const ChannelField& indirect = s.indirect();
-        const std::vector<float> ambient = s.ambient();
-        std::vector<float> unshot;
-        if (s.scene->solve.solver == SolverKind::shooting) unshot = s.shooting.unshot_at_vertices();
-        tbb::parallel_for(Range(0, coarse, 256), [&](const Range& range) {
-            std::array<float, max_channels> h{};
-            for (std::uint32_t i = range.begin(); i < range.end(); ++i) {
-                for (int k = 0; k < s.wavelengths.size(); ++k)
-                    h[k] = indirect[i][k] + (ambient.empty() ? 0 : ambient[k]);
-                field->irradiance_xyz[i] = weigh(irradiance, h.data());
-                field->reflected_xyz[i] = weigh(reflected[s.material_of(mesh.vertices[i].surface)], h.data());
-                if (!unshot.empty())
-                    field->unshot[i] = unshot[i];
-                else
-                    field->unshot[i] = std::abs(weigh(irradiance, s.system.residual()[s.receivers.of_vertex[i]]).y);
-            }
-        });
-        std::vector<glm::uvec3> coarse_elements;
-        for (std::uint32_t e = 0; e < mesh.coarse_element_count; ++e) coarse_elements.push_back(mesh.nodes[e].vertices);
-        fill_buried(coarse_elements, s.buried, field->irradiance_xyz);
-        fill_buried(coarse_elements, s.buried, field->reflected_xyz);
-        for (std::uint32_t v = coarse; v < count; ++v) { // parents come first
-            const auto& p = mesh.vertices[v].parents;
-            field->irradiance_xyz[v] = 0.5f * (field->irradiance_xyz[p[0]] + field->irradiance_xyz[p[1]]);
-            field->reflected_xyz[v] = 0.5f * (field->reflected_xyz[p[0]] + field->reflected_xyz[p[1]]);
-            field->unshot[v] = 0.5f * (field->unshot[p[0]] + field->unshot[p[1]]);
-        }
-    }
-
-    // Direct light: XYZ of each luminaire's exitance, as irradiance and as seen on each material.
-    const std::size_t emitters = s.direct->emitter_count();
-    std::vector<glm::vec3> emitter_xyz(emitters);
-    std::vector<std::vector<glm::vec3>> emitter_on_material(s.material_rho.size(), std::vector<glm::vec3>(emitters));
-    for (std::size_t l = 0; l < emitters; ++l) {
-        if (!s.luminaire_is_lit(l)) continue;
-        const std::vector<float> exitance(s.luminaire_exitance[l].begin(), s.luminaire_exitance[l].end());
-        emitter_xyz[l] = weigh(irradiance, exitance.data());
-        for (std::size_t m = 0; m < reflected.size(); ++m)
-            emitter_on_material[m][l] = weigh(reflected[m], exitance.data());
-    }
-    tbb::parallel_for(Range(0, count, 512), [&](const Range& range) {
-        for (std::uint32_t v = range.begin(); v < range.end(); ++v) {
-            const MeshVertex& vertex = mesh.vertices[v];
-            const float* d = s.direct->at_vertex(v);
-            const auto& on_material = emitter_on_material[s.material_of(vertex.surface)];
-            for (std::size_t l = 0; l < emitters; ++l) {
-                field->irradiance_xyz[v] += d[l] * emitter_xyz[l];
-                field->reflected_xyz[v] += d[l] * on_material[l];
-            }
-            if (const auto* exitance = s.exitance_of(vertex.surface, vertex.back))
-                field->emitted_xyz[v] = glm::vec3(xyz_from_channels(s.wavelengths, *exitance) / std::numbers::pi);
-        }
+    ChannelField irradiance = irradiance_channels(s, field->unshot);
+    const ChannelWeights seen = weights_of(*s.wavelengths, 0, nullptr, 1);
+    field->irradiance_xyz.resize(irradiance.count);
+    tbb::parallel_for(Range(0, irradiance.count, 512), [&](const Range& range) {
+        for (std::uint32_t v = range.begin(); v < range.end(); ++v) field->irradiance_xyz[v] = seen(irradiance[v]);
     });
-    const std::vector<std::uint8_t> buried = s.all_buried();
-    fill_buried(mesh.elements, buried, field->irradiance_xyz);
-    fill_buried(mesh.elements, buried, field->reflected_xyz);
+    Shader(s, *s.wavelengths, 0).shade(s, irradiance, *field);
+    if (s.trichromatic) {
+        field->trichromatic.emplace();
+        const auto first = static_cast<std::size_t>(s.wavelengths->size());
+        Shader(s, *s.trichromatic, first).shade(s, irradiance, *field->trichromatic);
+        field->colour_difference = colour_differences(*field);
+    }
+    if (irradiance.values.size() <= largest_channel_field) field->irradiance = std::move(irradiance);
+    field->wavelengths = s.wavelengths;
     return field;
 }
 
 std::vector<double> irradiance_at(const Solution::State& s, std::uint32_t element, float b1, float b2) {
-    const int channels = s.wavelengths.size();
+    const int channels = s.channels();
     std::vector<double> h(channels, 0);
     const glm::uvec3 corners = s.mesh.nodes[element].vertices;
     const float coarse_weight[3] = {1 - b1 - b2, b1, b2};
@@ -149,7 +209,7 @@ void add_reflected_radiosity(const Solution::State& s, std::uint32_t element, fl
                              std::span<double> radiosity) {
     const std::vector<double> h = irradiance_at(s, element, b1, b2);
     const std::vector<double>& rho = s.material_rho[s.material_of(s.mesh.coarse_surface[element])];
-    for (std::size_t c = 0; c < h.size(); ++c) radiosity[c] += factor * rho[c] * h[c];
+    for (std::size_t c = 0; c < radiosity.size(); ++c) radiosity[c] += factor * rho[c] * h[c];
 }
 
 } // namespace lueur

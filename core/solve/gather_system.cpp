@@ -26,38 +26,42 @@ constexpr std::uint32_t grain = 256;
 // channel in memory.
 using Lanes [[gnu::vector_size(32), gnu::aligned(4), gnu::may_alias]] = float;
 
-template <int Stride>
+// Channels first .. first + Count of one receiver.
+template <int Count>
 [[gnu::always_inline]] inline void apply_receiver(std::span<const GatherPass> passes, RayEnds which,
-                                                  const ChannelField& field, std::uint32_t i, float* out) {
-    constexpr int registers = Stride / 8;
+                                                  const ChannelField& field, std::uint32_t i, int first, float* out) {
+    constexpr int registers = Count / 8;
+    const std::size_t stride = static_cast<std::size_t>(field.stride);
+    const float* values = field.values.data() + first;
     Lanes sum[registers] = {};
     for (const GatherPass& pass : passes) {
         const std::vector<std::uint32_t>& all_ends = which == RayEnds::coarse ? pass.ends : pass.fine_ends;
         const std::uint32_t* ends = all_ends.data() + std::size_t(i) * rays_per_pass;
         for (int k = 0; k < rays_per_pass; ++k) {
-            const auto* row = reinterpret_cast<const Lanes*>(field.values.data() + std::size_t(ends[k]) * Stride);
+            const auto* row = reinterpret_cast<const Lanes*>(values + ends[k] * stride);
             for (int c = 0; c < registers; ++c) sum[c] += row[c];
         }
     }
     const float share = 1.0f / (static_cast<float>(passes.size()) * rays_per_pass);
-    for (int c = 0; c < registers; ++c) reinterpret_cast<Lanes*>(out)[c] = sum[c] * share;
+    for (int c = 0; c < registers; ++c) reinterpret_cast<Lanes*>(out + first)[c] = sum[c] * share;
 }
 
 LUEUR_BEST_VECTORS void apply_receivers(std::span<const GatherPass> passes, RayEnds ends, const ChannelField& field,
                                         std::uint32_t first, std::uint32_t last, ChannelField& out) {
     for (std::uint32_t i = first; i < last; ++i) {
-        switch (field.stride) {
+        int channel = 0; // as many at a time as there are registers for
+        for (; field.stride - channel >= 32; channel += 32) apply_receiver<32>(passes, ends, field, i, channel, out[i]);
+        switch (field.stride - channel) {
         case 8:
-            apply_receiver<8>(passes, ends, field, i, out[i]);
+            apply_receiver<8>(passes, ends, field, i, channel, out[i]);
             break;
         case 16:
-            apply_receiver<16>(passes, ends, field, i, out[i]);
+            apply_receiver<16>(passes, ends, field, i, channel, out[i]);
             break;
         case 24:
-            apply_receiver<24>(passes, ends, field, i, out[i]);
+            apply_receiver<24>(passes, ends, field, i, channel, out[i]);
             break;
         default:
-            apply_receiver<32>(passes, ends, field, i, out[i]);
             break;
         }
     }

@@ -1,5 +1,8 @@
 #include "core/solve/restriction.h"
 
+#include <algorithm>
+#include <unordered_map>
+
 namespace lueur {
 
 std::vector<float> restrict_direct(const Mesh& mesh, const DirectTransport& direct) {
@@ -25,27 +28,30 @@ std::vector<float> restrict_direct(const Mesh& mesh, const DirectTransport& dire
     return sum;
 }
 
-void fill_buried(std::span<const glm::uvec3> elements, std::vector<std::uint8_t> buried,
-                 std::vector<glm::vec3>& values) {
+void fill_buried(std::span<const glm::uvec3> elements, std::vector<std::uint8_t> buried, ChannelField& values) {
     std::vector<glm::uvec3> mixed; // elements with buried vertices: few
     for (const glm::uvec3& e : elements)
         if (buried[e.x] || buried[e.y] || buried[e.z]) mixed.push_back(e);
     for (int ring = 0; ring < 4 && !mixed.empty(); ++ring) {
         std::vector<std::uint32_t> touched;
-        std::vector<glm::vec4> sum(values.size(), glm::vec4(0));
+        std::unordered_map<std::uint32_t, std::uint32_t> neighbours; // of each touched vertex, with repeats
         for (const glm::uvec3& e : mixed)
             for (int k = 0; k < 3; ++k) {
                 if (!buried[e[k]]) continue;
                 for (int m = 1; m < 3; ++m) {
                     const std::uint32_t other = e[(k + m) % 3];
                     if (buried[other]) continue;
-                    if (sum[e[k]].w == 0) touched.push_back(e[k]);
-                    sum[e[k]] += glm::vec4(values[other], 1);
+                    if (neighbours[e[k]]++ == 0) {
+                        touched.push_back(e[k]);
+                        std::fill_n(values[e[k]], values.stride, 0.0f);
+                    }
+                    for (int c = 0; c < values.stride; ++c) values[e[k]][c] += values[other][c];
                 }
             }
         if (touched.empty()) break;
         for (const std::uint32_t v : touched) {
-            values[v] = glm::vec3(sum[v]) / sum[v].w;
+            const float share = 1.0f / static_cast<float>(neighbours[v]);
+            for (int c = 0; c < values.stride; ++c) values[v][c] *= share;
             buried[v] = 0;
         }
     }

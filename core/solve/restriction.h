@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/solve/channel_field.h"
 #include "core/transport/direct_transport.h"
 #include "core/transport/mesh.h"
 
@@ -14,8 +15,7 @@ namespace lueur {
 std::vector<float> restrict_direct(const Mesh& mesh, const DirectTransport& direct);
 
 // Gives buried vertices the mean of their neighbours that are not, ring by ring, so that interpolation across a contact
-// does not darken what is seen. `elements` may use any vertices below values.size().
-void fill_buried(std::span<const glm::uvec3> elements, std::vector<std::uint8_t> buried,
-                 std::vector<glm::vec3>& values);
+// does not darken what is seen. `elements` may use any vertices below values.count.
+void fill_buried(std::span<const glm::uvec3> elements, std::vector<std::uint8_t> buried, ChannelField& values);
 
 } // namespace lueur

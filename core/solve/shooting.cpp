@@ -98,20 +98,11 @@ void Shooting::receive(const ChannelField& irradiance) {
     tbb::parallel_for(Range(0, unshot_.count, 32), [&](const Range& range) {
         for (std::uint32_t p = range.begin(); p < range.end(); ++p) {
             float mean[max_channels] = {};
-            switch (irradiance.stride) {
-            case 8:
-                add_patch_mean<8>(p, irradiance.values.data(), 8, mean);
-                break;
-            case 16:
-                add_patch_mean<16>(p, irradiance.values.data(), 16, mean);
-                break;
-            case 24:
-                add_patch_mean<24>(p, irradiance.values.data(), 24, mean);
-                break;
-            default:
-                add_patch_mean<32>(p, irradiance.values.data(), 32, mean);
-                break;
-            }
+            int channel = 0;
+            for (; irradiance.stride - channel >= 32; channel += 32)
+                add_patch_mean<32>(p, irradiance.values.data() + channel, irradiance.stride, mean + channel);
+            for (; channel < irradiance.stride; channel += 8)
+                add_patch_mean<8>(p, irradiance.values.data() + channel, irradiance.stride, mean + channel);
             float flux = 0;
             for (int c = 0; c < channels; ++c) {
                 unshot_[p][c] += rho_[p][c] * mean[c];

@@ -10,9 +10,11 @@
 #include <tbb/parallel_for.h>
 
 #include "core/scene/luminaire.h"
+#include "core/scene/spectral_content.h"
 #include "core/solve/ray_budget.h"
 #include "core/solve/restriction.h"
 #include "core/solve/solution_state.h"
+#include "core/spectrum/wavelengths_plan.h"
 #include "core/transport/time_slice.h"
 
 namespace lueur {
@@ -28,25 +30,74 @@ constexpr double unshot_part = 0.2;            // of the target error that flux 
 
 using State = Solution::State;
 
+// The wavelengths that the scene's lights and paints need; the same as before where those have not changed.
+void choose_wavelengths(State& s) {
+    const SolveSettings& solve = s.scene->solve;
+    SpectralContent content = spectral_content(*s.scene);
+    const bool same_rule = s.wavelengths && s.wavelengths->asked == solve.wavelengths;
+    if (same_rule && s.content == content && s.planned_error == solve.colour_error) return;
+    switch (solve.wavelengths.rule) {
+    case WavelengthRule::automatic:
+    case WavelengthRule::folded: {
+        WavelengthsPlan plan =
+            plan_wavelengths(solve.wavelengths, content, solve.colour_error, same_rule ? s.wavelengths.get() : nullptr);
+        s.wavelengths = std::make_shared<const Wavelengths>(std::move(plan.wavelengths));
+        s.status.predicted_colour_error = plan.prediction.worst;
+        s.status.wavelengths = std::move(plan.reason);
+        break;
+    }
+    case WavelengthRule::uniform:
+    case WavelengthRule::meyer:
+    case WavelengthRule::gauss:
+    case WavelengthRule::rgb:
+        s.wavelengths = std::make_shared<const Wavelengths>(make_wavelengths(solve.wavelengths, content));
+        s.status.predicted_colour_error = -1;
+        s.status.wavelengths = fmt::format("{} channels", s.wavelengths->size());
+        break;
+    }
+    s.content = std::move(content);
+    s.planned_error = solve.colour_error;
+}
+
 void make_channels(State& s) {
     const Scene& scene = *s.scene;
-    s.wavelengths = make_wavelengths(scene.solve.wavelengths);
+    choose_wavelengths(s);
+    const bool compare = scene.solve.compare_trichromatic && scene.solve.wavelengths.rule != WavelengthRule::rgb &&
+                         s.wavelengths->size() + 3 <= max_channels;
+    s.trichromatic = compare ? std::optional(make_wavelengths(WavelengthsSpec{WavelengthRule::rgb, 3})) : std::nullopt;
+    const auto with_trichromatic = [&](const auto& channels_in) {
+        std::vector<double> channels = channels_in(*s.wavelengths);
+        if (s.trichromatic) {
+            const std::vector<double> more = channels_in(*s.trichromatic);
+            channels.insert(channels.end(), more.begin(), more.end());
+        }
+        return channels;
+    };
     s.material_rho.clear();
     for (const Material& material : scene.materials)
-        s.material_rho.push_back(reflectance_channels(material.reflectance, s.wavelengths));
+        s.material_rho.push_back(
+            with_trichromatic([&](const Wavelengths& w) { return reflectance_channels(material, w); }));
     s.luminaire_exitance.clear();
     s.status.emitted_lumens = 0;
+    std::string dark;
     for (const Luminaire& luminaire : scene.luminaires) {
-        s.luminaire_exitance.push_back(exitance_channels(scene, luminaire, s.wavelengths));
-        s.status.emitted_lumens +=
-            xyz_from_channels(s.wavelengths, s.luminaire_exitance.back()).y * emitting_area(scene, luminaire);
+        s.luminaire_exitance.push_back(
+            with_trichromatic([&](const Wavelengths& w) { return exitance_channels(scene, luminaire, w); }));
+        const double lumens =
+            xyz_from_channels(*s.wavelengths, s.luminaire_exitance.back()).y * emitting_area(scene, luminaire);
+        s.status.emitted_lumens += lumens;
+        if (!(lumens > 0) && luminous_flux(scene, luminaire) > 0 && dark.empty())
+            dark =
+                fmt::format("\"{}\" is dark: its spectrum has nothing at the wavelengths of {}; folded samples see it",
+                            luminaire.name, to_string(s.wavelengths->spec));
     }
     s.object_luminaire = luminaire_of_objects(scene);
-    s.status.message = s.status.emitted_lumens > 0 ? "" : "nothing emits light: the picture is black";
+    s.status.message = s.status.emitted_lumens > 0 ? dark : "nothing emits light: the picture is black";
+    if (!dark.empty()) s.status.message = dark;
 }
 
 ChannelField rho_of_receivers(const State& s) {
-    ChannelField rho(s.receivers.count(), s.wavelengths.size());
+    ChannelField rho(s.receivers.count(), s.channels());
     for (std::uint32_t i = 0; i < rho.count; ++i) {
         const auto& values = s.material_rho[s.material_of(s.mesh.vertices[s.receivers.vertex[i]].surface)];
         std::copy(values.begin(), values.end(), rho[i]);
@@ -55,7 +106,7 @@ ChannelField rho_of_receivers(const State& s) {
 }
 
 ChannelField rho_of_patches(const State& s) {
-    ChannelField rho(static_cast<std::uint32_t>(s.mesh.patches.size()), s.wavelengths.size());
+    ChannelField rho(static_cast<std::uint32_t>(s.mesh.patches.size()), s.channels());
     for (std::uint32_t p = 0; p < rho.count; ++p) {
         const auto& values = s.material_rho[s.material_of(s.mesh.vertices[s.mesh.patches[p].x].surface)];
         std::copy(values.begin(), values.end(), rho[p]);
@@ -66,11 +117,10 @@ ChannelField rho_of_patches(const State& s) {
 // Direct irradiance of one luminaire at the coarse vertices, of D restricted to them.
 ChannelField direct_of(const State& s, const std::vector<float>& coarse_direct, std::size_t luminaire) {
     const std::size_t emitters = s.direct->emitter_count();
-    ChannelField h(s.mesh.coarse_vertex_count, s.wavelengths.size());
+    ChannelField h(s.mesh.coarse_vertex_count, s.channels());
     for (std::uint32_t i = 0; i < h.count; ++i) {
         const float d = coarse_direct[i * emitters + luminaire];
-        for (int c = 0; c < s.wavelengths.size(); ++c)
-            h[i][c] = d * static_cast<float>(s.luminaire_exitance[luminaire][c]);
+        for (int c = 0; c < s.channels(); ++c) h[i][c] = d * static_cast<float>(s.luminaire_exitance[luminaire][c]);
     }
     return h;
 }
@@ -89,7 +139,7 @@ double unshot_flux_share(const State& s) {
     const std::vector<float> area = receiver_areas(s);
     for (std::uint32_t i = 0; i < s.receivers.count(); ++i) {
         double y = 0;
-        for (int c = 0; c < s.wavelengths.size(); ++c) y += s.wavelengths.xyz_weight[c].y * s.system.residual()[i][c];
+        for (int c = 0; c < s.wavelengths->size(); ++c) y += s.wavelengths->xyz_weight[c].y * s.system.residual()[i][c];
         flux += area[i] * std::abs(y);
     }
     return s.status.emitted_lumens > 0 ? flux / s.status.emitted_lumens : 0;
@@ -98,7 +148,7 @@ double unshot_flux_share(const State& s) {
 // Direct light reflected at the fine vertices: rho D E, one row more than vertices, the last zero.
 ChannelField reflected_direct(const State& s) {
     const std::uint32_t count = static_cast<std::uint32_t>(s.mesh.vertices.size());
-    const int channels = s.wavelengths.size();
+    const int channels = s.channels();
     const std::size_t emitters = s.direct->emitter_count();
     ChannelField b(count + 1, channels);
     tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, count, 256),
@@ -130,7 +180,7 @@ void update_error(State& s) {
     const std::uint32_t receivers = s.receivers.count();
     const auto luminous = [&](const float* channels) {
         double y = 0;
-        for (int c = 0; c < s.wavelengths.size(); ++c) y += s.wavelengths.xyz_weight[c].y * channels[c];
+        for (int c = 0; c < s.wavelengths->size(); ++c) y += s.wavelengths->xyz_weight[c].y * channels[c];
         return static_cast<float>(y);
     };
     ScalarRadiosity radiosity{std::vector<float>(receivers), std::vector<float>(s.mesh.vertices.size())};
@@ -138,10 +188,11 @@ void update_error(State& s) {
     std::vector<double> exitance;
     std::vector<std::vector<double>> reflected(s.material_rho.size());
     for (const auto& e : s.luminaire_exitance) {
-        exitance.push_back(xyz_from_channels(s.wavelengths, std::span<const double>(e)).y);
+        exitance.push_back(xyz_from_channels(*s.wavelengths, std::span<const double>(e)).y);
         for (std::size_t m = 0; m < s.material_rho.size(); ++m) {
             double y = 0;
-            for (std::size_t c = 0; c < e.size(); ++c) y += s.wavelengths.xyz_weight[c].y * s.material_rho[m][c] * e[c];
+            for (std::size_t c = 0; c < s.wavelengths->xyz_weight.size(); ++c)
+                y += s.wavelengths->xyz_weight[c].y * s.material_rho[m][c] * e[c];
             reflected[m].push_back(y);
         }
     }
@@ -158,11 +209,11 @@ void update_error(State& s) {
     }
 
     double mean_rho = 0, area = 0, white = 0;
-    for (const Xyz& w : s.wavelengths.xyz_weight) white += w.y;
+    for (const Xyz& w : s.wavelengths->xyz_weight) white += w.y;
     for (std::uint32_t v = 0; v < s.mesh.coarse_vertex_count; ++v) {
         const auto& rho = s.material_rho[s.material_of(s.mesh.vertices[v].surface)];
         double y = 0;
-        for (std::size_t c = 0; c < rho.size(); ++c) y += s.wavelengths.xyz_weight[c].y * rho[c];
+        for (std::size_t c = 0; c < s.wavelengths->xyz_weight.size(); ++c) y += s.wavelengths->xyz_weight[c].y * rho[c];
         mean_rho += s.coarse_area[v] * y / white, area += s.coarse_area[v];
     }
     mean_rho = area > 0 ? mean_rho / area : 0;
@@ -171,6 +222,14 @@ void update_error(State& s) {
     const double interpolation = s.direct->misfit();
     s.status.estimated_error =
         std::min(1.0, std::sqrt(rays * rays + unsolved * unsolved + interpolation * interpolation));
+}
+
+// But for rounding: a lamp of the same flux in its own channels may differ in its last digit.
+bool nearly_equal(const std::vector<std::vector<double>>& a, const std::vector<std::vector<double>>& b) {
+    return std::ranges::equal(a, b, [](const std::vector<double>& one, const std::vector<double>& other) {
+        return std::ranges::equal(one, other,
+                                  [](double x, double y) { return std::abs(x - y) <= 1e-12 * std::abs(x); });
+    });
 }
 
 // In a closed scene that absorbs nothing the radiosity grows without end: say so instead of iterating.
@@ -188,7 +247,7 @@ bool has_no_finite_solution(const State& s) {
 void refresh_indirect(State& s) {
     for (std::uint32_t v = 0; v < s.indirect_irradiance.count; ++v) {
         const std::uint32_t i = s.receivers.of_vertex[v];
-        for (int c = 0; c < s.wavelengths.size(); ++c)
+        for (int c = 0; c < s.channels(); ++c)
             s.indirect_irradiance[v][c] = s.gathered_direct[i][c] + s.system.gathered()[i][c];
     }
 }
@@ -197,10 +256,10 @@ void refresh_indirect(State& s) {
 void start_gathering(State& s, bool new_rays) {
     const std::uint32_t n = s.receivers.count();
     const std::atomic<bool> never{false};
-    s.gathered_direct = ChannelField(n, s.wavelengths.size());
-    s.indirect_irradiance = ChannelField(s.mesh.coarse_vertex_count, s.wavelengths.size());
+    s.gathered_direct = ChannelField(n, s.channels());
+    s.indirect_irradiance = ChannelField(s.mesh.coarse_vertex_count, s.channels());
     apply_rows(s.passes, RayEnds::fine, reflected_direct(s), s.gathered_direct, never);
-    if (!s.solving) s.system = GatherSystem(n, s.wavelengths.size(), receiver_areas(s));
+    if (!s.solving) s.system = GatherSystem(n, s.channels(), receiver_areas(s));
     if (new_rays) s.system.set_rows(s.passes);
     s.system.set_sources(rho_of_receivers(s), s.gathered_direct);
     s.solving = true;
@@ -216,12 +275,15 @@ void start_shooting(State& s) {
         direct.push_back(direct_of(s, coarse_direct, l));
         flux.push_back(0);
     }
-    std::vector<float> weight;
+    // A fitted sample may weigh less than nothing in Y: flux is not shot for its sake. The trichromatic channels ride
+    // along.
+    std::vector<float> weight(static_cast<std::size_t>(s.channels()), 0.0f);
     double mean = 0;
-    for (const Xyz& w : s.wavelengths.xyz_weight) mean += w.y / s.wavelengths.size();
-    for (const Xyz& w : s.wavelengths.xyz_weight) weight.push_back(static_cast<float>(0.95 * w.y + 0.05 * mean));
+    for (const Xyz& w : s.wavelengths->xyz_weight) mean += std::max(w.y, 0.0) / s.wavelengths->size();
+    for (int c = 0; c < s.wavelengths->size(); ++c)
+        weight[c] = static_cast<float>(0.95 * std::max(s.wavelengths->xyz_weight[c].y, 0.0) + 0.05 * mean);
     for (std::size_t l = 0; l < flux.size(); ++l)
-        for (int c = 0; c < s.wavelengths.size(); ++c)
+        for (int c = 0; c < s.channels(); ++c)
             flux[l] += weight[c] * s.luminaire_exitance[l][c] * s.direct->emitters()[l].area;
     s.shooting = Shooting(*s.world, s.mesh, s.origins, s.buried, std::move(direct), std::move(flux), rho_of_patches(s),
                           std::move(weight), s.scene->solve.seed);
@@ -417,12 +479,12 @@ std::uint32_t Solution::State::material_of(std::uint32_t surface) const {
     return static_cast<std::uint32_t>(at(scene->objects[at(scene->geometry->surfaces[surface].object)].material));
 }
 
-const std::vector<double>* Solution::State::exitance_of(std::uint32_t surface, bool back) const {
+std::optional<std::size_t> Solution::State::luminaire_of(std::uint32_t surface, bool back) const {
     const auto& luminaire = object_luminaire[at(scene->geometry->surfaces[surface].object)];
-    if (!luminaire) return nullptr;
+    if (!luminaire) return std::nullopt;
     const EmitSide side = scene->luminaires[at(*luminaire)].side;
-    if (side != EmitSide::both && (side == EmitSide::back) != back) return nullptr;
-    return &luminaire_exitance[at(*luminaire)];
+    if (side != EmitSide::both && (side == EmitSide::back) != back) return std::nullopt;
+    return at(*luminaire);
 }
 
 bool Solution::State::luminaire_is_lit(std::size_t luminaire) const {
@@ -463,9 +525,17 @@ void Solution::update(std::shared_ptr<const Scene> scene, SolveFrom stale) {
         make_channels(*state_);
         return;
     }
+    const auto wavelengths_before = s.wavelengths;
+    const auto rho_before = s.material_rho, exitance_before = s.luminaire_exitance;
+    const int channels_before = s.channels();
     make_channels(s);
-    if (s.scene->solve.solver != before.solver || !(s.scene->solve.wavelengths == before.wavelengths) ||
-        stale == SolveFrom::black || s.phase == SolvePhase::failed)
+    const bool same_channels = s.channels() == channels_before && s.wavelengths->nm == wavelengths_before->nm &&
+                               s.wavelengths->spec == wavelengths_before->spec;
+    // Another lamp of the same flux where all lamps have one spectrum: only the weights to XYZ have changed.
+    const bool same_sources =
+        same_channels && s.material_rho == rho_before && nearly_equal(s.luminaire_exitance, exitance_before);
+    if (s.scene->solve.solver != before.solver || !same_channels || stale == SolveFrom::black ||
+        s.phase == SolvePhase::failed)
         s.solving = false; // nothing of the old radiosities can be used
     if (s.scene->solve.target_error != before.target_error || s.scene->solve.max_rays != before.max_rays) {
         s.passes.clear(); // the number of rays follows from the settings, never from what was there before
@@ -492,7 +562,8 @@ void Solution::update(std::shared_ptr<const Scene> scene, SolveFrom stale) {
         s.phase = SolvePhase::gather;
         return;
     }
-    start_gathering(s, !s.solving);
+    s.status.sweeps = 0;
+    if (!s.solving || !same_sources) start_gathering(s, !s.solving);
     s.phase = SolvePhase::sweep;
 }
 

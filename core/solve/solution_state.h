@@ -37,8 +37,11 @@ struct Solution::State {
     double element_size = 0;        // m, longest coarse edge in use
     std::vector<float> coarse_area; // m^2 of each coarse vertex
 
-    // Sources and paints, in channels.
-    Wavelengths wavelengths;
+    // Sources and paints, in channels: those of `wavelengths`, then those of `trichromatic`.
+    std::shared_ptr<const Wavelengths> wavelengths;
+    std::optional<Wavelengths> trichromatic;             // when the two are compared
+    SpectralContent content;                             // that the wavelengths were chosen for
+    double planned_error = 0;                            // and the colour_error
     std::vector<std::vector<double>> material_rho;       // per material
     std::vector<std::vector<double>> luminaire_exitance; // per luminaire, W m^-2 nm^-1
     std::vector<std::optional<LuminaireIndex>> object_luminaire;
@@ -50,24 +53,25 @@ struct Solution::State {
     bool solving = false;  // system or shooting hold this scene's sources
     bool edit_open = true; // last_edit_seconds is still to be set
 
+    int channels() const { return wavelengths->size() + (trichromatic ? trichromatic->size() : 0); }
     // Coarse vertices by their own rays, fine ones where they are dark and inside a solid.
     std::vector<std::uint8_t> all_buried() const;
     std::uint32_t material_of(std::uint32_t surface) const;
-    // Exitance of the luminaire that shines on this side of a surface, or null.
-    const std::vector<double>* exitance_of(std::uint32_t surface, bool back) const;
-    bool luminaire_is_lit(std::size_t luminaire) const; // shooting: it has shot
-    const ChannelField& indirect() const;               // irradiance at coarse vertices
-    std::vector<float> ambient() const;                 // irradiance to be added for display; empty with gathering
+    std::optional<std::size_t> luminaire_of(std::uint32_t surface, bool back) const; // that shines on this side
+    bool luminaire_is_lit(std::size_t luminaire) const;                              // shooting: it has shot
+    const ChannelField& indirect() const;                                            // irradiance at coarse vertices
+    std::vector<float> ambient() const; // irradiance to be added for display; empty with gathering
 };
 
 std::shared_ptr<const Field> compose_field(const Solution::State& state);
 
 // Reflected radiosity per channel at a point of a coarse element: rho (H_direct + H_indirect). `radiosity` has one
-// entry a channel.
+// entry a channel, or stops before the trichromatic ones.
 void add_reflected_radiosity(const Solution::State& state, std::uint32_t element, float b1, float b2, double factor,
                              std::span<double> radiosity);
 
-// Irradiance per channel at a point of a coarse element, as the window shows it.
+// Irradiance per channel (those of the trichromatic approach last) at a point of a coarse element, as the window shows
+// it.
 std::vector<double> irradiance_at(const Solution::State& state, std::uint32_t element, float b1, float b2);
 
 } // namespace lueur

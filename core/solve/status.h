@@ -33,7 +33,9 @@ struct SolveStatus {
     std::uint32_t sweeps = 0, shots = 0;
     std::uint32_t receivers = 0, vertices = 0, elements = 0;
     std::uint32_t shooting_patch = no_index; // patch of the mesh that shot last; no_index: a luminaire, or none
-    std::string message; // a warning the user should read (no light, open scene...), or why it failed
+    std::string wavelengths;                 // what the channels are, in a line
+    double predicted_colour_error = -1; // CIEDE2000 at worst, of auto and folded wavelengths; below 0: not predicted
+    std::string message;                // a warning the user should read (no light, open scene...), or why it failed
 };
 
 } // namespace lueur

@@ -34,7 +34,7 @@ void set_standard_error(Irradiance& result, const std::array<double, batches>& l
 }
 
 Irradiance gather(const Solution::State& s, glm::vec3 origin, glm::vec3 normal, int rays, std::uint32_t seed) {
-    const int channels = s.wavelengths.size();
+    const int channels = s.wavelengths->size();
     const auto& emitters = s.direct->emitters();
     std::vector<double> total(channels, 0);
     std::array<double, batches> luminous{};
@@ -56,10 +56,10 @@ Irradiance gather(const Solution::State& s, glm::vec3 origin, glm::vec3 normal, 
         }
         for (int c = 0; c < channels; ++c) {
             total[c] += h[c] / batches;
-            luminous[b] += s.wavelengths.xyz_weight[c].y * h[c];
+            luminous[b] += s.wavelengths->xyz_weight[c].y * h[c];
         }
     }
-    Irradiance result = from_channels(s.wavelengths, std::move(total));
+    Irradiance result = from_channels(*s.wavelengths, std::move(total));
     set_standard_error(result, luminous);
     return result;
 }
@@ -70,12 +70,12 @@ Irradiance read_field(const Solution::State& s, glm::vec3 position, glm::vec3 no
     const Hit hit = s.world->closest({position + reach * normal, -normal, 0, 2 * reach});
     Irradiance result;
     if (hit.element == no_index) {
-        result.channels.assign(s.wavelengths.size(), std::numeric_limits<double>::quiet_NaN());
+        result.channels.assign(s.wavelengths->size(), std::numeric_limits<double>::quiet_NaN());
         result.illuminance_lx = result.irradiance_w_m2 = result.standard_error_percent =
             std::numeric_limits<double>::quiet_NaN();
         return result;
     }
-    result = from_channels(s.wavelengths, irradiance_at(s, hit.element, hit.b1, hit.b2));
+    result = from_channels(*s.wavelengths, irradiance_at(s, hit.element, hit.b1, hit.b2));
     result.standard_error_percent = 100 * s.status.estimated_error;
     return result;
 }
@@ -84,7 +84,7 @@ Irradiance reference(const Solution::State& s, glm::vec3 origin, glm::vec3 norma
                      const std::atomic<bool>& cancel) {
     std::array<double, batches> luminous{};
     Irradiance result =
-        from_channels(s.wavelengths, trace_irradiance(s, origin, normal, paths, seed, cancel, luminous));
+        from_channels(*s.wavelengths, trace_irradiance(s, origin, normal, paths, seed, cancel, luminous));
     set_standard_error(result, luminous);
     return result;
 }

@@ -44,7 +44,7 @@ std::vector<double> trace_irradiance(const Solution::State& s, glm::vec3 origin,
                                      std::span<double, 8> luminous_batches) {
     const World& world = *s.world;
     const auto& emitters = s.direct->emitters();
-    const int channels = s.wavelengths.size();
+    const int channels = s.wavelengths->size();
     const float epsilon = world.epsilon();
     std::vector<double> irradiance(channels, 0);
     std::fill(luminous_batches.begin(), luminous_batches.end(), 0.0);
@@ -54,7 +54,7 @@ std::vector<double> trace_irradiance(const Solution::State& s, glm::vec3 origin,
     std::vector<double> flux, luminous_exitance;
     double total = 0;
     for (std::size_t l = 0; l < emitters.size(); ++l) {
-        luminous_exitance.push_back(xyz_from_channels(s.wavelengths, s.luminaire_exitance[l]).y);
+        luminous_exitance.push_back(xyz_from_channels(*s.wavelengths, s.luminaire_exitance[l]).y);
         flux.push_back(luminous_exitance.back() * emitters[l].area);
         total += flux.back();
     }
@@ -71,7 +71,7 @@ std::vector<double> trace_irradiance(const Solution::State& s, glm::vec3 origin,
             for (int c = 0; c < channels; ++c) {
                 const double e = factor * throughput[c] * s.luminaire_exitance[l][c];
                 irradiance[c] += e;
-                y += s.wavelengths.xyz_weight[c].y * e;
+                y += s.wavelengths->xyz_weight[c].y * e;
             }
             luminous_batches[batch] += y;
         };

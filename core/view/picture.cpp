@@ -30,15 +30,13 @@ glm::vec3 sample_texture(const TextureImage& image, glm::vec2 uv) {
 
 } // namespace
 
-// B_pixel = E + (B - E) rho_pixel / rho_mean (lecture, corrections 35), per linear sRGB channel.
-glm::dvec3 textured(const Material& material, glm::vec2 uv, const Xyz& reflected) {
-    if (!material.texture || !material.texture->image || material.texture->image->rgb.empty()) return reflected;
-    static const glm::dmat3 to_rgb = rgb_from_xyz(srgb), to_xyz = xyz_from_rgb(srgb);
-    const glm::dvec3 texel_rgb(sample_texture(*material.texture->image, uv));
-    glm::dvec3 ratio(0);
+std::vector<double> irradiance_channels(const Field& field, const FieldPoint& point) {
+    if (field.irradiance.count == 0 || !field.wavelengths) return {};
+    std::vector<double> channels(static_cast<std::size_t>(field.wavelengths->size()), 0.0);
     for (int k = 0; k < 3; ++k)
-        if (material.texture->mean[k] > 0) ratio[k] = texel_rgb[k] / material.texture->mean[k];
-    return to_xyz * (ratio * (to_rgb * reflected));
+        for (std::size_t c = 0; c < channels.size(); ++c)
+            channels[c] += double(point.weights[k]) * field.irradiance[point.vertices[k]][c];
+    return channels;
 }
 
 std::optional<FieldPoint> field_along_ray(const FieldView& view, const Ray& original) {
@@ -55,21 +53,36 @@ std::optional<FieldPoint> field_along_ray(const FieldView& view, const Ray& orig
     FieldPoint point{};
     point.position = ray.origin + hit.t * ray.direction;
     point.surface = hit.surface;
+    const Scene& scene = *view.scene;
+    const Object& object = scene.objects[at(scene.geometry->surfaces[hit.surface].object)];
+    const auto& texture = scene.materials[at(object.material)].texture;
+    const Shades& shades = view.trichromatic && view.field->trichromatic ? *view.field->trichromatic
+                                                                         : static_cast<const Shades&>(*view.field);
+    const bool textured =
+        texture && texture->image && !texture->image->rgb.empty() && !shades.reflected_by_texel.empty();
     glm::dvec3 reflected(0), emitted(0);
+    glm::dmat3 by_texel(0);
     for (int k = 0; k < 3; ++k) {
         const std::uint32_t v = at_point.vertices[k];
         const float w = at_point.weights[k];
+        point.vertices[k] = v, point.weights[k] = w;
         point.normal += w * mesh.vertices[v].normal;
         point.uv += w * mesh.vertices[v].uv;
         point.irradiance += double(w) * glm::dvec3(view.field->irradiance_xyz[v]);
-        reflected += double(w) * glm::dvec3(view.field->reflected_xyz[v]);
-        emitted += double(w) * glm::dvec3(view.field->emitted_xyz[v]);
+        reflected += double(w) * glm::dvec3(shades.reflected_xyz[v]);
+        emitted += double(w) * glm::dvec3(shades.emitted_xyz[v]);
+        if (textured) by_texel += double(w) * glm::dmat3(shades.reflected_by_texel[v]);
         point.unshot += w * view.field->unshot[v];
+        if (!view.field->colour_difference.empty()) point.colour_difference += w * view.field->colour_difference[v];
     }
     if (glm::dot(point.normal, point.normal) > 0) point.normal = glm::normalize(point.normal);
-    const Scene& scene = *view.scene;
-    const Object& object = scene.objects[at(scene.geometry->surfaces[hit.surface].object)];
-    point.radiance = emitted + textured(scene.materials[at(object.material)], point.uv, reflected);
+    // B_pixel = E + (B - E) rho_pixel / rho_mean at every wavelength (lecture, corrections 35): core/solve/field.h.
+    if (textured) {
+        point.texel = sample_texture(*texture->image, point.uv);
+        reflected = by_texel * glm::dvec3(*point.texel);
+    }
+    point.emitted = emitted;
+    point.radiance = emitted + reflected;
     return point;
 }
 

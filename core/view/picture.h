@@ -20,6 +20,7 @@ struct FieldView {
     std::shared_ptr<const Mesh> mesh;
     std::shared_ptr<const World> world;
     std::shared_ptr<const Field> field;
+    bool trichromatic = false; // radiance by the trichromatic approach, where the field has it
 };
 
 struct FieldPoint { // the field where a ray meets the scene
@@ -27,11 +28,17 @@ struct FieldPoint { // the field where a ray meets the scene
     glm::vec2 uv;
     std::uint32_t surface;
     bool back_face;
-    Xyz irradiance, radiance; // lx and cd m^-2 in Y; radiance with texture and emission
+    Xyz irradiance, radiance;       // lx and cd m^-2 in Y; radiance with texture and emission
+    Xyz emitted;                    // the part of the radiance that the surface emits itself
+    std::optional<glm::vec3> texel; // linear RGB, of a textured surface
     float unshot;
+    float colour_difference;   // CIEDE2000 of the two approaches, of the mean texel; 0 where they are not compared
+    std::uint32_t vertices[3]; // of the mesh, and what each counts: irradiance in channels is read there
+    float weights[3];
 };
-// Reflected radiance with the texture of a material put on it: reflected * texel / mean, per linear sRGB channel.
-glm::dvec3 textured(const Material& material, glm::vec2 uv, const Xyz& reflected);
+
+// Irradiance at the point per channel of field.wavelengths; empty where the field has none.
+std::vector<double> irradiance_channels(const Field& field, const FieldPoint& point);
 
 std::optional<FieldPoint> field_along_ray(const FieldView& view, const Ray& ray);
 

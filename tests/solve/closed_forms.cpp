@@ -14,7 +14,7 @@ namespace {
 
 // Irradiance in W/m2 at every vertex as shown, from the luminous field (flat spectrum, grey paint: one number).
 double watts_per_lumen(const Solution& solution) {
-    const Wavelengths& w = solution.state().wavelengths;
+    const Wavelengths& w = *solution.state().wavelengths;
     const std::vector<double> flat(w.size(), 1.0);
     return watts_from_channels(w, flat) / xyz_from_channels(w, std::span<const double>(flat)).y;
 }

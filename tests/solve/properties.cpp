@@ -160,7 +160,7 @@ TEST(Shooting, FurnaceAndGatheringAgree) {
     scene.solve.solver = SolverKind::shooting;
     scene.solve.element_size = 0.2;
     const Solution furnace = test::solved(scene);
-    const Wavelengths& w = furnace.state().wavelengths;
+    const Wavelengths& w = *furnace.state().wavelengths;
     const std::vector<double> flat(w.size(), 1.0);
     const double scale = watts_from_channels(w, flat) / xyz_from_channels(w, std::span<const double>(flat)).y;
     const auto furnace_field = furnace.field();
@@ -186,12 +186,12 @@ TEST(Shooting, LuminairesShootFirstAndTheAmbientTermFillsIn) {
     EXPECT_EQ(solution.status().shooting_patch, no_index); // a luminaire, not a patch
     // Places no lamp reaches are not black: the ambient term stands for the unshot flux.
     const std::vector<float> ambient = solution.state().ambient();
-    ASSERT_EQ(ambient.size(), 31u);
-    EXPECT_GT(ambient[15], 0);
+    ASSERT_EQ(ambient.size(), static_cast<std::size_t>(solution.state().channels()));
+    EXPECT_GT(ambient[0], 0);
     const auto field = solution.field();
     for (const glm::vec3& h : field->irradiance_xyz) EXPECT_GT(h.y, 0);
     test::settle(solution);
-    EXPECT_LT(solution.state().ambient()[15], 0.05 * ambient[15]); // and goes away with it
+    EXPECT_LT(solution.state().ambient()[0], 0.05 * ambient[0]); // and goes away with it
 }
 
 TEST(Solution, TheSameSeedGivesTheSameBits) {

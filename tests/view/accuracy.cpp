@@ -6,6 +6,7 @@
 
 #include "core/scene/scene_file.h"
 #include "core/solve/solution_state.h"
+#include "core/spectrum/rgb_basis.h"
 #include "core/view/measure.h"
 #include "core/view/picture.h"
 #include "tests/support/scenes.h"
@@ -137,21 +138,62 @@ TEST(Picture, FurnaceIsOneColour) {
     EXPECT_TRUE(render_picture(view, camera, {64, 40, 2}, PictureQuantity::colour, always).xyz.empty());
 }
 
-// Texel / mean: a checkerboard of 0.2 and 0.6 with mean 0.4 halves and raises what the mean reflects; the solution does
-// not change.
-TEST(Picture, TexturesModulateTheMean) {
+Scene textured_furnace(const Rgb& mean) {
     Scene scene = test::furnace(0.4);
     auto image = std::make_shared<TextureImage>();
     image->width = 2, image->height = 1;
     image->rgb = {glm::vec3(0.2f), glm::vec3(0.6f)};
-    scene.materials[0].texture = Texture{"checker", image, Rgb(0.4)};
-    const Xyz reflected(95, 100, 109);
-    EXPECT_NEAR(textured(scene.materials[0], {0.25f, 0.5f}, reflected).y, 50, 1e-3);
-    EXPECT_NEAR(textured(scene.materials[0], {0.75f, 0.5f}, reflected).y, 150, 1e-3);
-    EXPECT_NEAR(textured(scene.materials[0], {0.5f, 0.5f}, reflected).y, 100, 1e-3);   // between two texels
-    EXPECT_NEAR(textured(scene.materials[0], {-0.25f, 3.5f}, reflected).y, 150, 1e-3); // repeats
-    scene.materials[0].texture->mean = Rgb(0);
-    EXPECT_EQ(textured(scene.materials[0], {0.25f, 0.5f}, reflected).y, 0); // a black mean shows black, not infinity
+    scene.materials[0].texture = Texture{"checker", image, mean};
+    scene.materials[0].reflectance = mean;
+    return scene;
+}
+
+// The solution is that of the mean; a texel reflects what arrives, wavelength by wavelength: L = sum_k w_k rho_k H_k /
+// pi.
+TEST(Picture, TexelsReflectWhatArrivesAtEveryWavelength) {
+    const Rgb mean(0.5, 0.3, 0.4);
+    const Solution solution = test::solved(textured_furnace(mean));
+    const auto field = solution.field();
+    ASSERT_EQ(field->reflected_by_texel.size(), solution.mesh()->vertices.size());
+    const Wavelengths& wavelengths = *field->wavelengths;
+    for (const Rgb& texel : {Rgb(0.2), Rgb(0.6), Rgb(0.9, 0.05, 0.1), Rgb(0, 0, 1), Rgb(0), mean}) {
+        const std::vector<double> rho = reflectance_channels(wavelengths, reflectance_from_texel(texel));
+        for (std::uint32_t v = 0; v < field->irradiance.count; v += 7) {
+            Xyz expected(0);
+            for (std::size_t k = 0; k < rho.size(); ++k)
+                expected += wavelengths.xyz_weight[k] * rho[k] * double(field->irradiance[v][k]) / M_PI;
+            const Xyz seen(field->reflected_by_texel[v] * glm::vec3(texel));
+            EXPECT_LT(glm::distance(seen, expected), 1e-4 * glm::length(Xyz(field->reflected_xyz[v])));
+            if (texel == mean) EXPECT_LT(glm::distance(seen, Xyz(field->reflected_xyz[v])), 1e-4 * glm::length(seen));
+        }
+    }
+}
+
+// Two texels side by side in a picture, half as bright and half as bright again as their mean; between them a mixture.
+TEST(Picture, TexturesModulateTheMean) {
+    Scene scene = textured_furnace(Rgb(0.4));
+    auto geometry = std::make_shared<Geometry>(*scene.geometry);
+    for (Vertex& vertex : geometry->vertices) vertex.uv = {vertex.position.x + vertex.position.y, 0.5f};
+    scene.geometry = geometry;
+    const Solution solution = test::solved(scene);
+    const FieldView view{solution.scene(), solution.mesh(), solution.world(), solution.field()};
+    int looked_at = 0;
+    for (float x = 0.03f; x < 1; x += 0.07f)
+        for (float y = 0.04f; y < 1; y += 0.09f) {
+            const auto point = field_along_ray(view, {{x, y, 0.5f}, {0, 0, -1}});
+            ASSERT_TRUE(point);
+            const double u = point->uv.x * 2 - 0.5, t = u - std::floor(u); // bilinear, repeating
+            const double left = static_cast<int>(std::floor(u)) % 2 == 0 ? 0.2 : 0.6, right = 0.8 - left;
+            const double white = point->irradiance.y / M_PI, emitted = solution.field()->emitted_xyz[0].y;
+            EXPECT_NEAR(point->radiance.y, emitted + ((1 - t) * left + t * right) * white, 2e-3 * white);
+            ++looked_at;
+        }
+    EXPECT_GT(looked_at, 100);
+}
+
+TEST(Picture, ABlackMeanUnderATextureShowsBlackNotInfinity) {
+    const Solution solution = test::solved(textured_furnace(Rgb(0)));
+    for (const glm::mat3& by_texel : solution.field()->reflected_by_texel) ASSERT_EQ(by_texel, glm::mat3(0));
 }
 
 TEST(CameraRay, AgreesWithTheProjectionMatrix) {
