@@ -2,7 +2,9 @@
 // render` say the same.
 #pragma once
 
+#include <expected>
 #include <filesystem>
+#include <string>
 
 #include "core/display/image_file.h"
 #include "core/scene/scene.h"
@@ -14,9 +16,25 @@ namespace lueur {
 std::string to_string(SolverKind solver);
 std::string to_string(PictureQuantity quantity);
 
-// Keys "lueur:...". `max_display` of the display is the one that was used, an automatic one included.
+// Keys "lueur:..."; numbers are the shortest that read back exactly. Metres, Y up.
 ImageMetadata picture_metadata(const Scene& scene, const std::filesystem::path& scene_file, const Camera& camera,
                                const SolveStatus& status, PictureQuantity quantity);
-void add_display_metadata(ImageMetadata& metadata, const DisplaySettings& display);
+// The numbers of the display are those that were used, automatic ones included.
+void add_display_metadata(ImageMetadata& metadata, const DisplaySettings& display, bool false_colour = false);
+
+// All that is needed to make a picture again.
+struct PictureRecipe {
+    std::string version, scene_name;
+    std::filesystem::path scene_file; // absolute, where it was known
+    PictureQuantity quantity = PictureQuantity::colour;
+    bool false_colour = false;
+    Camera camera;
+    DisplaySettings display;
+    SolveSettings solve;
+    bool operator==(const PictureRecipe&) const = default;
+};
+// The error names what is missing or cannot be read, in one line. A picture without display settings (EXR, HDR) has the
+// default ones.
+std::expected<PictureRecipe, std::string> recipe_from_metadata(const ImageMetadata& metadata);
 
 } // namespace lueur

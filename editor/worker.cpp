@@ -85,6 +85,7 @@ struct Worker::State {
     std::vector<ConvergencePoint> history;
     Clock::time_point last_publication{};
     double publication_seconds = 0; // that the last one took
+    bool field_stale = true;        // the solution has moved on since
 
     bool has_request() const { return pending_scene || restart; }
 
@@ -117,7 +118,9 @@ void Worker::State::take_requests(std::unique_lock<std::mutex>& lock) {
     else if (scene)
         solution->update(scene, solve_from(stage));
     if (from_black && solution) solution->update(solution->scene(), SolveFrom::black);
-    if (from_black || solve_from(stage) != SolveFrom::nothing) history.clear();
+    const bool stale = from_black || solve_from(stage) != SolveFrom::nothing;
+    if (stale) history.clear();
+    field_stale = field_stale || stale;
     lock.lock();
 }
 
@@ -129,7 +132,9 @@ void Worker::State::publish(bool is_paused) {
     next->scene = solution->scene();
     next->mesh = solution->mesh();
     next->world = solution->world();
-    next->field = solution->field();
+    // An edit of the display or the camera shows the same light.
+    next->field = field_stale || !snapshot->field ? solution->field() : snapshot->field;
+    field_stale = false;
     next->status = solution->status();
     next->status.paused = is_paused;
     next->history = history;
@@ -176,6 +181,7 @@ void Worker::State::run() {
         const SolveStage stage_before = solution->status().stage;
         do {
             solution->step(cancel, single);
+            field_stale = true;
             // A single step shows something new: a sweep, a shot or the end of a stage.
         } while (single && !cancel.load() && !solution->status().settled &&
                  solution->status().stage != SolveStage::failed && solution->status().sweeps == sweeps &&

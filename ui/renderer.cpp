@@ -5,12 +5,10 @@
 #include <chrono>
 #include <cmath>
 
-#include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
 #include "core/spectrum/colour.h"
 #include "core/view/picture.h"
-#include "ui/false_colour.h"
 #include "ui/swatch.h"
 #include "ui/theme.h"
 
@@ -43,8 +41,10 @@ glm::mat3 srgb_matrix() {
 
 // What the mesh pass shows; all else is the display pass's business.
 bool same_mesh_pass(const RenderParams& a, const RenderParams& b) {
-    return a.width == b.width && a.height == b.height && a.camera == b.camera && a.view == b.view &&
-           a.selected == b.selected && a.highlight_shooting == b.highlight_shooting && a.line_width == b.line_width;
+    const auto mesh_view = [](ViewMode view) { return view == ViewMode::luminance ? ViewMode::shaded : view; };
+    return a.width == b.width && a.height == b.height && a.camera == b.camera &&
+           mesh_view(a.view) == mesh_view(b.view) && a.selected == b.selected &&
+           a.highlight_shooting == b.highlight_shooting && a.line_width == b.line_width;
 }
 
 // Variants of the mesh shaders: each a set of these.
@@ -93,7 +93,9 @@ std::expected<std::unique_ptr<Renderer>, std::string> Renderer::make() {
     r.vertex_array_ = new_vertex_array();
     r.no_vertices_ = new_vertex_array();
     for (GlBuffer* buffer :
-         {&r.positions_, &r.uvs_, &r.objects_, &r.reflected_, &r.emitted_, &r.unshot_, &r.elements_, &r.coarse_})
+         {&r.positions_, &r.uvs_, &r.objects_, &r.shades_.reflected, &r.shades_.emitted, &r.shades_.by_texel,
+          &r.trichromatic_.reflected, &r.trichromatic_.emitted, &r.trichromatic_.by_texel, &r.unshot_, &r.illuminance_,
+          &r.difference_, &r.elements_, &r.coarse_})
         *buffer = new_buffer();
     glBindVertexArray(r.vertex_array_);
     const auto attribute = [](GLuint index, GLuint buffer, GLint components) {
@@ -106,8 +108,6 @@ std::expected<std::unique_ptr<Renderer>, std::string> Renderer::make() {
     glBindBuffer(GL_ARRAY_BUFFER, r.objects_);
     glVertexAttribIPointer(2, 1, GL_UNSIGNED_INT, 0, nullptr);
     glEnableVertexAttribArray(2);
-    attribute(3, r.reflected_, 3);
-    attribute(4, r.emitted_, 3);
     attribute(5, r.unshot_, 1);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, r.elements_);
     glBindVertexArray(0);
@@ -144,7 +144,8 @@ void Renderer::make_target(int width, int height, int samples) {
     glBindFramebuffer(GL_FRAMEBUFFER, target_->display_pass);
     target_->shown = new_texture();
     glBindTexture(GL_TEXTURE_2D, target_->shown);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+    // Its bytes in the order of a window's, for the fast path of ui/stretch.cpp.
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_BGRA, GL_UNSIGNED_INT_8_8_8_8_REV, nullptr);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target_->shown, 0);
@@ -159,25 +160,22 @@ Renderer::Picture Renderer::draw(const RenderParams& params) {
                 std::max(8, static_cast<int>(std::lround(share * params.height))), many ? 4 : 1);
     const double start = seconds_now();
     bool drew = false;
-    const double asked = params.display.max_display;
     if (stale_ || !mesh_drawn_ || drawn_target_ != target_ || !same_mesh_pass(*mesh_drawn_, params)) {
-        draw_mesh(params, asked);
-        drawn_max_display_ = asked;
+        // Single precision holds what is seen divided by any of these; the display pass does the rest.
+        drawn_max_display_ = std::clamp(params.display.max_display, 1e-3, 1e6);
+        draw_mesh(params, drawn_max_display_);
         drawn_target_ = target_;
         mesh_drawn_ = params;
         display_drawn_.reset();
         drew = drew_mesh_ = true;
         stale_ = false;
-        largest_seen_ = -1;
+        seen_radiance_.reset();
+        shares_of_.reset();
     }
-    double max_display = asked;
-    if (params.display.clip == ClipRule::scale_all) {
-        if (largest_seen_ < 0) largest_seen_ = largest_component_seen();
-        max_display = std::max(asked, largest_seen_);
-    }
-    if (!display_drawn_ || !(display_drawn_->display == params.display) ||
+    if (!display_drawn_ || !(display_drawn_->display == params.display) || display_drawn_->view != params.view ||
         display_drawn_->unshot_top != params.unshot_top) {
-        draw_display(params, max_display);
+        const bool whole = params.display.clip == ClipRule::scale_all && shows_colour(params.view);
+        draw_display(params, whole ? std::max(1.0, largest_component(seen_radiance(), params.display)) : 1.0);
         display_drawn_ = params;
         drew = true;
     }
@@ -228,13 +226,59 @@ void Renderer::draw_mesh(const RenderParams& params, double max_display) {
 
     unsigned variant = 0;
     if (params.view == ViewMode::elements) variant |= with_lines;
-    if (params.view == ViewMode::unshot) variant |= of_unshot;
+    if (!shows_colour(params.view)) variant |= of_unshot;
     if (params.highlight_shooting && shooting_ != no_index) variant |= with_highlight;
     const double aspect = static_cast<double>(params.width) / params.height;
     const auto range = depth_range(params.camera, bounds_);
     const glm::mat4 clip = clip_from_world(params.camera, aspect, range.near_plane, range.far_plane);
     const double pixel = glm::radians(params.camera.vertical_fov_degrees) / target_->height; // rad
     choose_seen(clip, glm::vec3(params.camera.position), params.still ? 0.0f : static_cast<float>(0.5 * pixel));
+    glActiveTexture(GL_TEXTURE1);
+    glBindTexture(GL_TEXTURE_BUFFER, coarse_texture_);
+    glActiveTexture(GL_TEXTURE0);
+
+    glBindVertexArray(vertex_array_);
+    // The scalar of the vertices, see mesh.vert.glsl.
+    glBindBuffer(GL_ARRAY_BUFFER, params.view == ViewMode::illuminance  ? illuminance_
+                                  : params.view == ViewMode::difference ? difference_
+                                                                        : unshot_);
+    glVertexAttribPointer(5, 1, GL_FLOAT, GL_FALSE, 0, nullptr);
+    use_shades(shades_);
+    if (params.view == ViewMode::side_by_side && field_->trichromatic) { // the middle of the scene twice
+        const int left = target_->width / 2;
+        glEnable(GL_SCISSOR_TEST);
+        glScissor(0, 0, left, target_->height);
+        draw_batches(params, variant, clip, max_display);
+        use_shades(trichromatic_);
+        glScissor(left, 0, target_->width - left, target_->height);
+        draw_batches(params, variant, clip, max_display);
+        glDisable(GL_SCISSOR_TEST);
+    } else
+        draw_batches(params, variant, clip, max_display);
+    glBindVertexArray(0);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_DEPTH_TEST);
+}
+
+void Renderer::use_shades(const ShadeBuffers& shades) {
+    const auto attribute = [](GLuint index, GLuint buffer, GLsizei stride, std::size_t offset) {
+        glBindBuffer(GL_ARRAY_BUFFER, buffer);
+        glVertexAttribPointer(index, 3, GL_FLOAT, GL_FALSE, stride, reinterpret_cast<const void*>(offset));
+    };
+    attribute(3, shades.reflected, 0, 0);
+    attribute(4, shades.emitted, 0, 0);
+    for (GLuint index : {3u, 4u}) glEnableVertexAttribArray(index);
+    for (GLuint column = 0; column < 3; ++column) {
+        attribute(6 + column, shades.by_texel, sizeof(glm::mat3), column * sizeof(glm::vec3));
+        // Without textures the buffer is empty, and nothing reads it.
+        if (any_texture_)
+            glEnableVertexAttribArray(6 + column);
+        else
+            glDisableVertexAttribArray(6 + column);
+    }
+}
+
+void Renderer::draw_batches(const RenderParams& params, unsigned variant, const glm::mat4& clip, double max_display) {
     const auto use = [&](GLuint program) { // what is the same for all batches
         glUseProgram(program);
         glUniformMatrix4fv(place(program, "clip_from_world"), 1, GL_FALSE, glm::value_ptr(clip));
@@ -251,11 +295,6 @@ void Renderer::draw_mesh(const RenderParams& params, double max_display) {
         glUniform1i(place(program, "texels"), 0);
         glUniform1i(place(program, "patches"), 1);
     };
-    glActiveTexture(GL_TEXTURE1);
-    glBindTexture(GL_TEXTURE_BUFFER, coarse_texture_);
-    glActiveTexture(GL_TEXTURE0);
-
-    glBindVertexArray(vertex_array_);
     GLuint program = 0;
     for (const auto& batch : batches_) {
         if (batch.seen == 0) continue;
@@ -263,85 +302,11 @@ void Renderer::draw_mesh(const RenderParams& params, double max_display) {
         const bool textured = texture != textures_.end();
         const GLuint wanted = mesh_programs_.at(textured ? variant | with_texture : variant);
         if (wanted != program) use(program = wanted);
-        if (textured) {
-            glBindTexture(GL_TEXTURE_2D, texture->second);
-            const glm::vec3 mean = scene_->materials[at(batch.material)].texture->mean;
-            glUniform3fv(place(program, "mean_rgb"), 1, glm::value_ptr(mean));
-        }
+        if (textured) glBindTexture(GL_TEXTURE_2D, texture->second);
         glUniform1i(place(program, "first_element"), static_cast<GLint>(batch.first_seen));
         glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * batch.seen), GL_UNSIGNED_INT,
                        reinterpret_cast<const void*>(batch.first_seen * sizeof(glm::uvec3)));
     }
-    glBindVertexArray(0);
-    glDisable(GL_CULL_FACE);
-    glDisable(GL_DEPTH_TEST);
-}
-
-void Renderer::draw_display(const RenderParams& params, double max_display) {
-    glBindFramebuffer(GL_FRAMEBUFFER, target_->display_pass);
-    glViewport(0, 0, target_->width, target_->height);
-    glDisable(GL_SCISSOR_TEST);
-    glDisable(GL_BLEND);
-    glDisable(GL_DEPTH_TEST);
-    const GLuint program = target_->samples > 1 ? display_many_ : display_one_;
-    glUseProgram(program);
-    glActiveTexture(GL_TEXTURE0);
-    glBindTexture(target_->samples > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D, target_->seen);
-    glUniform1i(place(program, "seen"), 0);
-    glUniform1f(place(program, "rescale"), static_cast<float>(drawn_max_display_ / max_display));
-    int clip_rule = 0;
-    switch (params.display.clip) {
-    case ClipRule::clamp:
-    case ClipRule::scale_all:
-        clip_rule = 0;
-        break;
-    case ClipRule::keep_chromaticity:
-        clip_rule = 1;
-        break;
-    case ClipRule::desaturate:
-        clip_rule = 2;
-        break;
-    }
-    glUniform1i(place(program, "clip_rule"), clip_rule);
-    glUniform1i(place(program, "srgb_curve"), params.display.curve == TransferCurve::srgb);
-    glUniform1f(place(program, "gamma"), static_cast<float>(params.display.gamma));
-    const glm::vec3 weights = glm::row(xyz_from_rgb(srgb), 1);
-    glUniform3fv(place(program, "luminance_weights"), 1, glm::value_ptr(weights));
-    glUniform1i(place(program, "show_unshot"), params.view == ViewMode::unshot);
-    const float top = std::log10(std::max(params.unshot_top, 1e-9f));
-    glUniform1f(place(program, "log_low"), top - false_colour_decades);
-    glUniform1f(place(program, "log_high"), top);
-    glUniform3f(place(program, "backdrop"), colours::backdrop.x, colours::backdrop.y, colours::backdrop.z);
-    glUniform3f(place(program, "line_colour"), 0.95f, 0.95f, 0.95f);
-    glUniform3f(place(program, "outline_colour"), colours::accent.x, colours::accent.y, colours::accent.z);
-    glUniform1i(place(program, "outline"), params.selected.has_value());
-    glUniform1i(place(program, "outline_width"), std::max(1, static_cast<int>(std::lround(params.line_width))));
-    glBindVertexArray(no_vertices_);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-    glBindVertexArray(0);
-}
-
-// For ClipRule::scale_all: the largest component of linear RGB in the picture, cd m^-2.
-double Renderer::largest_component_seen() {
-    GlFramebuffer resolved = new_framebuffer();
-    GlTexture texture;
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, target_->mesh_pass);
-    if (target_->samples > 1) {
-        texture = new_texture();
-        glBindTexture(GL_TEXTURE_2D, texture);
-        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, target_->width, target_->height, 0, GL_RGBA, GL_FLOAT, nullptr);
-        glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved);
-        glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
-        glBlitFramebuffer(0, 0, target_->width, target_->height, 0, 0, target_->width, target_->height,
-                          GL_COLOR_BUFFER_BIT, GL_NEAREST);
-        glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved);
-    }
-    std::vector<glm::vec4> pixels(static_cast<std::size_t>(target_->width) * static_cast<std::size_t>(target_->height));
-    glReadPixels(0, 0, target_->width, target_->height, GL_RGBA, GL_FLOAT, pixels.data());
-    float largest = 0;
-    for (const auto& pixel : pixels)
-        if (pixel.a > 0.5f) largest = std::max({largest, pixel.r, pixel.g, pixel.b});
-    return largest * drawn_max_display_;
 }
 
 } // namespace lueur

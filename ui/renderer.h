@@ -21,6 +21,14 @@
 
 namespace lueur {
 
+// Views of the mesh pass that hold colours; the others hold one quantity.
+constexpr bool shows_colour(ViewMode view) {
+    return view == ViewMode::shaded || view == ViewMode::elements || view == ViewMode::luminance ||
+           view == ViewMode::side_by_side;
+}
+FalseColourSettings unshot_scale(float top); // five decades below `top`, lm m^-2
+FalseColourSettings difference_scale();      // CIEDE2000 of the trichromatic approach
+
 struct RenderParams {
     int width = 0, height = 0; // pixels
     bool still = true;         // nothing moves: worth four samples a pixel. Else as much as fits into a frame
@@ -51,6 +59,8 @@ public:
     double draw_seconds() const { return draw_seconds_; } // of the last call of draw that drew
     bool drew_mesh() const { return drew_mesh_; }         // in the last call of draw
     const Bounds& bounds() const { return bounds_; }
+    // Shares of what is seen that the marks would mark; 0 while no colour is shown.
+    DisplayShares shares(const DisplaySettings& display);
 
 private:
     Renderer() = default;
@@ -75,15 +85,22 @@ private:
     void choose_seen(const glm::mat4& clip_from_world, glm::vec3 eye, float smallest); // smallest: an edge's angle, rad
     void make_target(int width, int height, int samples);
     void draw_mesh(const RenderParams& params, double max_display);
-    void draw_display(const RenderParams& params, double max_display);
+    void draw_display(const RenderParams& params, double divisor); // ui/renderer_display.cpp, as all below
+    const RadianceImage& seen_radiance();
     bool many_samples_are_cheap() const;
     void adapt_resolution(double seconds);
-    double largest_component_seen();
 
     std::map<unsigned, GlProgram> mesh_programs_; // by their variants, see renderer.cpp
     GlProgram display_one_, display_many_;
     GlVertexArray vertex_array_, no_vertices_;
-    GlBuffer positions_, uvs_, objects_, reflected_, emitted_, unshot_, elements_, coarse_;
+    struct ShadeBuffers {
+        GlBuffer reflected, emitted, by_texel;
+    };
+    void use_shades(const ShadeBuffers& shades);
+    void draw_batches(const RenderParams& params, unsigned variant, const glm::mat4& clip, double max_display);
+
+    GlBuffer positions_, uvs_, objects_, unshot_, illuminance_, difference_, elements_, coarse_;
+    ShadeBuffers shades_, trichromatic_; // the second is used when the two are compared
     GlTexture coarse_texture_;
     std::map<const TextureImage*, GlTexture> textures_;
     std::vector<Batch> batches_;
@@ -103,9 +120,12 @@ private:
     std::shared_ptr<const Mesh> mesh_;
     std::shared_ptr<const Field> field_;
     std::uint32_t shooting_ = no_index;
-    bool stale_ = true;
+    bool stale_ = true, any_texture_ = false;
     std::optional<RenderParams> mesh_drawn_, display_drawn_;
-    double drawn_max_display_ = 1, largest_seen_ = 0;
+    double drawn_max_display_ = 1;
+    std::optional<RadianceImage> seen_radiance_; // of the last mesh pass, once asked for
+    std::optional<DisplaySettings> shares_of_;   // the settings that shares_ is of
+    DisplayShares shares_;
     double draw_seconds_ = 0, seconds_of_one_ = 0, seconds_of_many_ = 0;
     std::size_t resolution_ = 0; // of moving pictures, an index into the steps in renderer.cpp
     bool drew_mesh_ = false;

@@ -132,9 +132,22 @@ void Renderer::upload_elements(const Mesh& mesh, const Scene& scene) {
 }
 
 void Renderer::upload_field(const Field& field) {
-    fill(GL_ARRAY_BUFFER, reflected_, field.reflected_xyz, GL_STREAM_DRAW);
-    fill(GL_ARRAY_BUFFER, emitted_, field.emitted_xyz, GL_STREAM_DRAW);
+    const auto upload = [](ShadeBuffers& buffers, const Shades& shades) {
+        fill(GL_ARRAY_BUFFER, buffers.reflected, shades.reflected_xyz, GL_STREAM_DRAW);
+        fill(GL_ARRAY_BUFFER, buffers.emitted, shades.emitted_xyz, GL_STREAM_DRAW);
+        fill(GL_ARRAY_BUFFER, buffers.by_texel, shades.reflected_by_texel, GL_STREAM_DRAW);
+    };
+    any_texture_ = !field.reflected_by_texel.empty();
+    upload(shades_, field);
+    if (field.trichromatic) upload(trichromatic_, *field.trichromatic);
+    std::vector<float> difference = field.colour_difference;
+    difference.resize(field.unshot.size(), 0.0f);
+    fill(GL_ARRAY_BUFFER, difference_, difference, GL_STREAM_DRAW);
     fill(GL_ARRAY_BUFFER, unshot_, field.unshot, GL_STREAM_DRAW);
+    std::vector<float> illuminance; // lx
+    illuminance.reserve(field.irradiance_xyz.size());
+    for (const glm::vec3& irradiance : field.irradiance_xyz) illuminance.push_back(irradiance.y);
+    fill(GL_ARRAY_BUFFER, illuminance_, illuminance, GL_STREAM_DRAW);
 }
 
 } // namespace lueur

@@ -7,12 +7,32 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include "core/display/false_colour.h"
 #include "core/display/image_file.h"
+#include "core/display/legend.h"
 #include "core/view/picture.h"
 #include "editor/picture_metadata.h"
 
 namespace lueur {
 namespace {
+
+std::expected<void, std::string> write(const ScreenshotParams& params, const RadianceImage& image,
+                                       ImageMetadata metadata) {
+    if (is_radiance_image_name(params.output)) return write_radiance_image(params.output, image, metadata);
+    add_display_metadata(metadata, params.display, params.false_colour);
+    const bool deep = params.bits == 16 && !is_jpeg_name(params.output);
+    if (params.false_colour) {
+        const bool lux = params.quantity == PictureQuantity::illuminance;
+        const FalseColourSettings& scale = lux ? params.display.illuminance_scale : params.display.luminance_scale;
+        const auto write_one = [&](auto picture) {
+            draw_legend(picture, scale, lux ? "lx" : "cd/m2");
+            return write_display_image(params.output, picture, metadata);
+        };
+        return deep ? write_one(deep_false_colour_image(image, scale)) : write_one(false_colour_image(image, scale));
+    }
+    return deep ? write_display_image(params.output, deep_display_image(image, params.display), metadata)
+                : write_display_image(params.output, display_image(image, params.display), metadata);
+}
 
 std::expected<std::filesystem::path, std::string> save(const ScreenshotParams& params,
                                                        const std::atomic<bool>& cancel) {
@@ -23,20 +43,36 @@ std::expected<std::filesystem::path, std::string> save(const ScreenshotParams& p
     PictureParams size;
     size.width = params.width;
     size.height = params.height;
-    const auto image = render_picture(view, params.camera, size, PictureQuantity::colour, cancel);
+    const auto image = render_picture(view, params.camera, size, params.quantity, cancel);
     if (cancel) return std::unexpected("The picture was not saved: cancelled.");
-    auto display = params.display;
-    if (display.clip == ClipRule::scale_all)
-        display.max_display = std::max(display.max_display, largest_component(image));
-    auto metadata =
-        picture_metadata(*snapshot.scene, params.scene_file, params.camera, snapshot.status, PictureQuantity::colour);
-    add_display_metadata(metadata, display);
-    if (auto written = write_display_image(params.output, display_image(image, display), metadata); !written)
-        return std::unexpected(written.error());
+    const auto metadata =
+        picture_metadata(*snapshot.scene, params.scene_file, params.camera, snapshot.status, params.quantity);
+    if (auto written = write(params, image, metadata); !written) return std::unexpected(written.error());
     return params.output;
 }
 
 } // namespace
+
+void take_view(ScreenshotParams& params, ViewMode view) {
+    switch (view) {
+    case ViewMode::shaded:
+    case ViewMode::elements:
+    case ViewMode::unshot:
+    case ViewMode::side_by_side:
+    case ViewMode::difference:
+        params.quantity = PictureQuantity::colour;
+        params.false_colour = false;
+        return;
+    case ViewMode::luminance:
+        params.quantity = PictureQuantity::luminance;
+        params.false_colour = true;
+        return;
+    case ViewMode::illuminance:
+        params.quantity = PictureQuantity::illuminance;
+        params.false_colour = true;
+        return;
+    }
+}
 
 std::filesystem::path new_screenshot_file() {
     std::error_code error;

@@ -12,18 +12,26 @@
 #include <vector>
 
 #include "core/display/display.h"
+#include "core/view/picture.h"
 #include "editor/snapshot.h"
+#include "ui/ui_state.h"
 
 namespace lueur {
 
 struct ScreenshotParams {
     std::shared_ptr<const Snapshot> snapshot;
     Camera camera;
-    DisplaySettings display;
+    DisplaySettings display; // with the numbers in use
+    PictureQuantity quantity = PictureQuantity::colour;
+    bool false_colour = false; // of a luminance or illuminance
     int width = 1280, height = 800;
+    int bits = 8;                     // a channel, or 16: .png and .tif
     std::filesystem::path scene_file; // named in the metadata
-    std::filesystem::path output;
+    std::filesystem::path output;     // its ending says the kind: .png .jpg .tif as displayed, .exr .hdr as radiance
 };
+
+// What the view shows, as a picture.
+void take_view(ScreenshotParams& params, ViewMode view);
 
 // $XDG_PICTURES_DIR or the current folder / lueur-YYYYMMDD-HHMMSS.png; a number is added when the name is taken.
 std::filesystem::path new_screenshot_file();

@@ -2,154 +2,171 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
+#include <limits>
+
 #include <glm/gtc/matrix_access.hpp>
+
+#include "core/display/clip.h"
+#include "core/display/false_colour.h"
 
 namespace lueur {
 
 namespace {
 
-const glm::dmat3& rgb_from_xyz_srgb() {
-    static const glm::dmat3 matrix = rgb_from_xyz(srgb);
-    return matrix;
-}
-
-double luminance(const Rgb& rgb) { // of linear sRGB with white at 1
-    static const glm::dvec3 weights = glm::row(xyz_from_rgb(srgb), 1);
-    return glm::dot(weights, rgb);
-}
-
 bool is_finite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-// Mixes the colour with the grey of its own luminance, no more than needed to bring each component into 0..1.
-Rgb desaturated(const Rgb& rgb) {
-    const double grey = luminance(rgb);
-    if (grey >= 1) return Rgb(1); // nothing else has that luminance, or as much of it
-    if (grey <= 0) return Rgb(0);
-    double share = 1; // of the colour that is kept
-    for (int c = 0; c < 3; ++c) {
-        if (rgb[c] > 1) share = std::min(share, (1 - grey) / (rgb[c] - grey));
-        if (rgb[c] < 0) share = std::min(share, grey / (grey - rgb[c]));
-    }
-    return Rgb(grey) + share * (rgb - Rgb(grey));
-}
-
-// Hall 1989, "Illumination and Color in Computer Generated Imagery", section 5.3; rgb has white at 1.
-Rgb clipped(const Rgb& rgb, ClipRule rule) {
-    switch (rule) {
-    case ClipRule::scale_all: // MAXDISPLAY has been raised for the whole picture; what remains are negatives
-    case ClipRule::clamp:
-        return glm::clamp(rgb, 0.0, 1.0);
-    case ClipRule::keep_chromaticity: {
-        const Rgb positive = glm::max(rgb, 0.0);
-        return positive / std::max({1.0, positive.r, positive.g, positive.b});
-    }
-    case ClipRule::desaturate:
-        return glm::clamp(desaturated(rgb), 0.0, 1.0); // the clamp takes off rounding only
-    }
-    return {};
-}
-
-double encoded(double linear, const DisplaySettings& settings) {
-    switch (settings.curve) {
+double encoded(double linear, TransferCurve curve, double gamma) {
+    switch (curve) {
     case TransferCurve::gamma:
-        return std::pow(linear, 1 / settings.gamma);
+        return linear <= 0 ? 0 : std::pow(linear, 1 / gamma);
     case TransferCurve::srgb:
         return srgb_encode(linear);
     }
     return 0;
 }
 
-} // namespace
-
-std::string to_string(ClipRule rule) {
-    switch (rule) {
-    case ClipRule::clamp:
-        return "clamp";
-    case ClipRule::keep_chromaticity:
-        return "keep_chromaticity";
-    case ClipRule::desaturate:
-        return "desaturate";
-    case ClipRule::scale_all:
-        return "scale_all";
-    }
-    return {};
+template <typename Code>
+std::array<Code, 3> codes(const glm::dvec3& encoded_colour) {
+    constexpr double top = std::numeric_limits<Code>::max();
+    const glm::dvec3 c = glm::round(top * encoded_colour);
+    return {static_cast<Code>(c.r), static_cast<Code>(c.g), static_cast<Code>(c.b)};
 }
 
-std::string to_string(TransferCurve curve) {
-    switch (curve) {
-    case TransferCurve::gamma:
-        return "gamma";
-    case TransferCurve::srgb:
-        return "srgb";
-    }
-    return {};
+DisplayFunction function_for(const RadianceImage& image, const DisplaySettings& settings) {
+    DisplayFunction function = make_display_function(settings);
+    if (settings.clip == ClipRule::scale_all) function.divisor = std::max(1.0, largest_component(image, settings));
+    return function;
 }
 
-std::optional<ClipRule> parse_clip_rule(std::string_view text) {
-    for (const ClipRule rule :
-         {ClipRule::clamp, ClipRule::keep_chromaticity, ClipRule::desaturate, ClipRule::scale_all})
-        if (text == to_string(rule)) return rule;
-    return std::nullopt;
-}
-
-std::optional<TransferCurve> parse_transfer_curve(std::string_view text) {
-    for (const TransferCurve curve : {TransferCurve::gamma, TransferCurve::srgb})
-        if (text == to_string(curve)) return curve;
-    return std::nullopt;
-}
-
-std::vector<std::string> check(const DisplaySettings& settings) {
-    std::vector<std::string> faults;
-    if (!(std::isfinite(settings.max_display) && settings.max_display > 0))
-        faults.push_back(
-            fmt::format("MAXDISPLAY is {}; allowed: a finite number of cd/m^2 above 0", settings.max_display));
-    if (!(settings.gamma >= 0.1 && settings.gamma <= 10))
-        faults.push_back(fmt::format("gamma is {}; allowed: 0.1 to 10", settings.gamma));
-    return faults;
-}
-
-glm::dvec3 display_pixel(const Xyz& radiance, const DisplaySettings& settings) {
-    const Rgb rgb = rgb_from_xyz_srgb() * radiance / settings.max_display;
-    if (!is_finite(rgb)) return glm::dvec3(0);
-    const Rgb shown = clipped(rgb, settings.clip);
-    return {encoded(shown.r, settings), encoded(shown.g, settings), encoded(shown.b, settings)};
-}
-
-DisplayImage display_image(const RadianceImage& image, const DisplaySettings& settings) {
-    DisplaySettings resolved = settings;
-    if (settings.clip == ClipRule::scale_all)
-        resolved.max_display = std::max(settings.max_display, largest_component(image));
-    DisplayImage shown{image.width, image.height, {}};
+template <typename Code>
+CodeImage<Code> displayed(const RadianceImage& image, const DisplaySettings& settings) {
+    const DisplayFunction function = function_for(image, settings);
+    CodeImage<Code> shown{image.width, image.height, {}};
     shown.rgb.reserve(image.xyz.size());
-    for (const glm::vec3& xyz : image.xyz) {
-        const glm::dvec3 pixel = glm::round(255.0 * display_pixel(Xyz(xyz), resolved));
-        shown.rgb.push_back({static_cast<std::uint8_t>(pixel.r), static_cast<std::uint8_t>(pixel.g),
-                             static_cast<std::uint8_t>(pixel.b)});
+    const auto width = static_cast<std::size_t>(std::max(image.width, 1));
+    for (std::size_t i = 0; i < image.xyz.size(); ++i) {
+        const Rgb linear = linear_display_rgb(function, Xyz(image.xyz[i]));
+        const glm::dvec3 colour = marked(encoded_rgb(function, linear), faults_of(linear), settings,
+                                         static_cast<int>(i % width), static_cast<int>(i / width));
+        shown.rgb.push_back(codes<Code>(colour));
     }
     return shown;
 }
 
-double largest_component(const RadianceImage& image) {
+template <typename Code>
+CodeImage<Code> in_false_colour(const RadianceImage& image, const FalseColourSettings& scale) {
+    const std::vector<double> levels = isoline_levels(scale);
+    const auto value = [&](int x, int y) -> double { // 0: nothing there
+        if (x < 0 || y < 0 || x >= image.width || y >= image.height) return 0;
+        const float v =
+            image.xyz[static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x)]
+                .y;
+        return std::isfinite(v) ? static_cast<double>(v) : 0.0;
+    };
+    CodeImage<Code> shown{image.width, image.height, {}};
+    shown.rgb.reserve(image.xyz.size());
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const double here = value(x, y);
+            const double line = isoline_strength(
+                levels, here, {value(x - 1, y), value(x + 1, y), value(x, y - 1), value(x, y + 1)}, isoline_width);
+            shown.rgb.push_back(codes<Code>(glm::dvec3(with_isoline(false_colour(place_on_scale(scale, here)), line))));
+        }
+    return shown;
+}
+
+} // namespace
+
+DisplayFunction make_display_function(const DisplaySettings& settings) {
+    RgbSpace primaries = settings.primaries;
+    primaries.white_luminance = 1;
+    DisplayFunction function;
+    function.rgb_from_xyz = rgb_from_xyz(primaries) / settings.max_display;
+    function.luminance_weights = glm::row(xyz_from_rgb(primaries), 1);
+    function.tone = make_tone_curve(settings);
+    function.clip = settings.clip;
+    function.curve = settings.curve;
+    function.gamma = settings.gamma;
+    return function;
+}
+
+Rgb linear_display_rgb(const DisplayFunction& function, const Xyz& radiance) {
+    if (!is_finite(radiance)) return Rgb(0);
+    Rgb rgb = function.rgb_from_xyz * radiance;
+    if (glm::any(glm::isnan(rgb))) return Rgb(0); // of radiances near the end of double precision
+    rgb = glm::clamp(rgb, -largest_rgb, largest_rgb);
+    return toned(function.tone, rgb, function.luminance_weights) / function.divisor;
+}
+
+glm::dvec3 encoded_rgb(const DisplayFunction& function, const Rgb& linear) {
+    const Rgb shown = clipped(linear, function.clip, function.luminance_weights);
+    glm::dvec3 result(0);
+    for (int c = 0; c < 3; ++c) result[c] = encoded(shown[c], function.curve, function.gamma[c]);
+    return result;
+}
+
+glm::dvec3 display_pixel(const Xyz& radiance, const DisplayFunction& function) {
+    return encoded_rgb(function, linear_display_rgb(function, radiance));
+}
+
+glm::dvec3 display_pixel(const Xyz& radiance, const DisplaySettings& settings) {
+    return display_pixel(radiance, make_display_function(settings));
+}
+
+PixelFaults faults_of(const Rgb& linear) {
+    const double largest = std::max({linear.r, linear.g, linear.b}), least = std::min({linear.r, linear.g, linear.b});
+    constexpr double rounding = 1e-4; // single precision, and colours on the edge of the gamut
+    return {largest > 1 + rounding, least < -rounding * std::max(largest, 0.0) && largest > 0};
+}
+
+glm::dvec3 marked(const glm::dvec3& encoded_colour, const PixelFaults& faults, const DisplaySettings& settings, int x,
+                  int y) {
+    constexpr int stripe = 4; // pixels
+    const auto on = [](int distance) { return (distance / stripe) % 2 == 0; };
+    constexpr int far = 1 << 20; // a multiple of two stripes, keeps the difference above 0
+    if (settings.mark_clipped && faults.clipped && on(x + y)) return {1, 0.1, 0.15};
+    if (settings.mark_out_of_gamut && faults.out_of_gamut && on(x - y + far)) return {0.1, 0.85, 1};
+    return encoded_colour;
+}
+
+DisplayImage display_image(const RadianceImage& image, const DisplaySettings& settings) {
+    return displayed<std::uint8_t>(image, settings);
+}
+
+DeepDisplayImage deep_display_image(const RadianceImage& image, const DisplaySettings& settings) {
+    return displayed<std::uint16_t>(image, settings);
+}
+
+DisplayImage false_colour_image(const RadianceImage& image, const FalseColourSettings& scale) {
+    return in_false_colour<std::uint8_t>(image, scale);
+}
+
+DeepDisplayImage deep_false_colour_image(const RadianceImage& image, const FalseColourSettings& scale) {
+    return in_false_colour<std::uint16_t>(image, scale);
+}
+
+double largest_component(const RadianceImage& image, const DisplaySettings& settings) {
+    const DisplayFunction function = make_display_function(settings);
     double largest = 0;
     for (const glm::vec3& xyz : image.xyz) {
-        const Rgb rgb = rgb_from_xyz_srgb() * Xyz(xyz);
-        if (is_finite(rgb)) largest = std::max({largest, rgb.r, rgb.g, rgb.b});
+        const Rgb rgb = linear_display_rgb(function, Xyz(xyz));
+        largest = std::max({largest, rgb.r, rgb.g, rgb.b});
     }
     return largest;
 }
 
-double auto_max_display(std::vector<float> luminances, double share) {
-    std::erase_if(luminances, [](float l) { return !(std::isfinite(l) && l > 0); });
-    if (luminances.empty()) return DisplaySettings{}.max_display;
-    constexpr double headroom = 1.1;
-    // The smallest luminance that at least `share` of them do not exceed.
-    const double count = std::ceil(std::clamp(share, 0.0, 1.0) * static_cast<double>(luminances.size()));
-    const auto chosen = luminances.begin() + std::max<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(count) - 1, 0);
-    std::nth_element(luminances.begin(), chosen, luminances.end());
-    return headroom * static_cast<double>(*chosen);
+DisplayShares display_shares(const RadianceImage& image, const DisplaySettings& settings) {
+    const DisplayFunction function = function_for(image, settings);
+    std::size_t clipped_pixels = 0, outside = 0;
+    for (const glm::vec3& xyz : image.xyz) {
+        const PixelFaults faults = faults_of(linear_display_rgb(function, Xyz(xyz)));
+        clipped_pixels += faults.clipped;
+        outside += faults.out_of_gamut;
+    }
+    const auto count = static_cast<double>(std::max<std::size_t>(image.xyz.size(), 1));
+    return {static_cast<double>(clipped_pixels) / count, static_cast<double>(outside) / count};
 }
 
 } // namespace lueur

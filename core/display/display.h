@@ -1,68 +1,81 @@
-// From the radiance of a pixel to what a monitor is sent: XYZ -> RGB -> /MAXDISPLAY -> clip -> gamma -> 0..255.
-// (Lecture, chapter 11; Hall 1989 for the clipping rules. Gamma comes after the scaling: LECTURE corrections 19.)
+// From the radiance of a pixel to what a monitor is sent: XYZ -> RGB of the display -> /MAXDISPLAY -> tone operator ->
+// clip -> gamma -> 0..255. (Lecture, chapter 11; gamma comes after the scaling: LECTURE corrections 19.)
 // The window's shader (ui/shaders) implements the same function; a test holds the two within 1/255.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
 #include <vector>
 
-#include "core/spectrum/colour.h"
+#include "core/display/display_settings.h"
+#include "core/display/max_display.h"
+#include "core/display/tone_operator.h"
 
 namespace lueur {
 
-enum class ClipRule {
-    clamp,             // each component to 0..MAXDISPLAY (the lecture's choice)
-    keep_chromaticity, // scale the colour until its largest component fits; negatives clamped
-    desaturate,        // keep luminance and hue, mix with grey of the same luminance until it fits
-    scale_all,         // MAXDISPLAY is raised to the largest component of the picture: nothing is cut
-};
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored                                                                                         \
-    "-Wshadow" // GCC takes the scoped enumerator for a declaration that hides the colour space `srgb`
-enum class TransferCurve { gamma, srgb };
-#pragma GCC diagnostic pop
-
-struct DisplaySettings {
-    double max_display = 100;       // cd m^-2 shown as full white; > 0
-    bool max_display_auto = true;   // follow the scene: chosen once when a scene is opened, and again on demand
-    bool max_display_locked = true; // an edit never rescales the picture unasked
+// The display function with all that is the same for every pixel worked out. The settings' numbers are taken as they
+// are: rules that choose them have been resolved (core/display/max_display.h).
+struct DisplayFunction {
+    glm::dmat3 rgb_from_xyz{1};      // of the display, MAXDISPLAY at 1
+    glm::dvec3 luminance_weights{0}; // Y of each primary, the white's at 1
+    ToneCurve tone;
+    double divisor = 1; // ClipRule::scale_all: the largest component of the picture, at least 1
     ClipRule clip = ClipRule::clamp;
     TransferCurve curve = TransferCurve::srgb;
-    double gamma = 2.2; // of TransferCurve::gamma; 0.1..10
-    bool operator==(const DisplaySettings&) const = default;
+    glm::dvec3 gamma{2.2};
 };
+DisplayFunction make_display_function(const DisplaySettings& settings); // divisor 1
 
-std::string to_string(ClipRule rule);
-std::string to_string(TransferCurve curve);
-std::optional<ClipRule> parse_clip_rule(std::string_view text);
-std::optional<TransferCurve> parse_transfer_curve(std::string_view text);
+inline constexpr double largest_rgb = 1e36; // components are held to this, so that single precision holds them too
 
-// Empty when the settings are usable; else one line a fault, with what is allowed (max_display finite and > 0, ...).
-std::vector<std::string> check(const DisplaySettings& settings);
+// Linear RGB of the display before it is clipped, white at 1. What is not finite gives black.
+Rgb linear_display_rgb(const DisplayFunction& function, const Xyz& radiance);
+// Clipped and encoded, 0..1.
+glm::dvec3 encoded_rgb(const DisplayFunction& function, const Rgb& linear);
 
 // One pixel, radiance as XYZ in cd m^-2 -> encoded RGB in 0..1. Not-finite input gives black.
+glm::dvec3 display_pixel(const Xyz& radiance, const DisplayFunction& function);
 glm::dvec3 display_pixel(const Xyz& radiance, const DisplaySettings& settings);
 
-// A scene-referred picture: row-major from the top left, XYZ in cd m^-2.
+// What is wrong with a colour, by linear_display_rgb of it.
+struct PixelFaults {
+    bool clipped = false;      // a component above 1: brighter than the display
+    bool out_of_gamut = false; // a component below 0: more saturated than the display's primaries
+};
+PixelFaults faults_of(const Rgb& linear);
+// Stripes over what is wrong, red for clipped, cyan for out of gamut; x and y in pixels from the top left.
+glm::dvec3 marked(const glm::dvec3& encoded, const PixelFaults& faults, const DisplaySettings& settings, int x, int y);
+
+// A scene-referred picture: row-major from the top left, XYZ in cd m^-2. Pictures of one quantity hold it in Y.
 struct RadianceImage {
     int width = 0, height = 0;
     std::vector<glm::vec3> xyz;
 };
-struct DisplayImage {
+template <typename Code>
+struct CodeImage {
     int width = 0, height = 0;
-    std::vector<std::array<std::uint8_t, 3>> rgb;
+    std::vector<std::array<Code, 3>> rgb;
 };
+using DisplayImage = CodeImage<std::uint8_t>;
+using DeepDisplayImage = CodeImage<std::uint16_t>; // 16 bits a channel
 
-DisplayImage display_image(const RadianceImage& image, const DisplaySettings& settings); // resolves scale_all
-double largest_component(const RadianceImage& image); // of linear RGB: what scale_all puts in the place of MAXDISPLAY
+// Resolves scale_all, which looks at the whole picture, and draws the marks.
+DisplayImage display_image(const RadianceImage& image, const DisplaySettings& settings);
+DeepDisplayImage deep_display_image(const RadianceImage& image, const DisplaySettings& settings);
 
-// MAXDISPLAY that shows `share` (0..1) of the pixels' or vertices' luminances unclipped, with 10 % headroom; ignores
-// zeros.
-double auto_max_display(std::vector<float> luminances, double share = 0.98);
+// The quantity in Y as false colours with contours. Encoded sRGB.
+DisplayImage false_colour_image(const RadianceImage& image, const FalseColourSettings& scale);
+DeepDisplayImage deep_false_colour_image(const RadianceImage& image, const FalseColourSettings& scale);
+
+// The largest component of linear RGB in the picture after the tone operator, the display's white at 1: what scale_all
+// divides by where it is above 1.
+double largest_component(const RadianceImage& image, const DisplaySettings& settings);
+
+// Shares of the pixels, 0..1, that the marks would mark.
+struct DisplayShares {
+    double clipped = 0, out_of_gamut = 0;
+    bool operator==(const DisplayShares&) const = default;
+};
+DisplayShares display_shares(const RadianceImage& image, const DisplaySettings& settings);
 
 } // namespace lueur

@@ -3,11 +3,13 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <fmt/format.h>
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <system_error>
 
@@ -137,6 +139,57 @@ std::expected<void, std::string> check_picture(const std::filesystem::path& file
     return {};
 }
 
+// The curve of a picture that the display's settings in its metadata say was made for an sRGB monitor; other pictures
+// are sent to their own monitor as they are, and say nothing.
+bool is_srgb(const ImageMetadata& metadata) {
+    const auto says = [&](const char* key, std::string_view what) {
+        const auto found = metadata.find(key);
+        return found == metadata.end() || found->second == what;
+    };
+    return says("lueur:curve", "srgb") && says("lueur:primaries", "srgb");
+}
+
+template <typename Image>
+std::expected<void, std::string> write_codes(const std::filesystem::path& file, const Image& image,
+                                             const ImageMetadata& metadata, OIIO::TypeDesc type) {
+    const auto checked = check_picture(file, image.width, image.height, image.rgb.size(), metadata,
+                                       is_display_image_name(file), ".png .jpg .jpeg .tif .tiff");
+    if (!checked) return checked;
+    OIIO::ImageSpec spec(image.width, image.height, 3, type);
+    // Not for TIFF: it makes an EXIF directory, and OpenImageIO before 2.5 cannot write one to memory (its pull request
+    // 4300).
+    if (writable_format(file) != "tiff" && is_srgb(metadata)) spec.attribute("oiio:ColorSpace", "sRGB");
+    spec.attribute("Software", "Lueur " LUEUR_VERSION);
+    if (writable_format(file) == "png") {
+        for (const auto& [key, value] : metadata) spec.attribute(key, value);
+    } else {
+        if (!metadata.empty()) spec.attribute("ImageDescription", text_from_metadata(metadata));
+    }
+    if (writable_format(file) == "jpeg") {
+        spec.attribute("Compression", "jpeg:95");
+        spec.attribute("jpeg:subsampling", "4:4:4");
+    }
+    return write_image(file, spec, type, image.rgb.data());
+}
+
+// 500 -> "S0.500,0nm".
+std::string spectral_channel_name(double nm) {
+    std::string digits = fmt::format("{}", nm);
+    if (digits.find('.') == std::string::npos) digits += ".0";
+    std::ranges::replace(digits, '.', ',');
+    return "S0." + digits + "nm";
+}
+
+std::optional<double> wavelength_of_channel(std::string name) {
+    if (!name.starts_with("S0.") || !name.ends_with("nm")) return {};
+    name = name.substr(3, name.size() - 5);
+    std::ranges::replace(name, ',', '.');
+    double nm = 0;
+    const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), nm);
+    if (error != std::errc() || end != name.data() + name.size() || !(nm > 0)) return {};
+    return nm;
+}
+
 // 16 bit sRGB code -> linear; an 8 bit code c is 257 c.
 const std::vector<float>& srgb_decode_table() {
     static const std::vector<float> table = [] {
@@ -145,6 +198,15 @@ const std::vector<float>& srgb_decode_table() {
         return linear;
     }();
     return table;
+}
+
+// The exponent that a picture says its codes were made with, 1 for linear; 0: sRGB, which is also what no word means.
+double tagged_gamma(const OIIO::ImageSpec& spec) {
+    const std::string space(spec.get_string_attribute("oiio:ColorSpace"));
+    if (space == "linear" || space == "Linear") return 1;
+    if (!space.starts_with("Gamma")) return 0; // "Gamma2.2" or "GammaCorrected2.2", by the version
+    const double gamma = static_cast<double>(spec.get_float_attribute("oiio:Gamma", 0));
+    return gamma >= 0.1 && gamma <= 10 ? gamma : 0;
 }
 
 std::expected<TextureImage, std::string> decode_texture(std::span<const unsigned char> bytes, const std::string& name) {
@@ -185,7 +247,11 @@ std::expected<TextureImage, std::string> decode_texture(std::span<const unsigned
         std::vector<std::uint16_t> codes(values);
         if (!read(OIIO::TypeDesc::UINT16, codes.data()))
             return fault(fmt::format("is broken ({})", one_line(reader->input->geterror())));
-        fill([&](std::size_t i) { return srgb_decode_table()[codes[i]]; });
+        const double gamma = tagged_gamma(spec);
+        if (gamma > 0)
+            fill([&](std::size_t i) { return static_cast<float>(std::pow(codes[i] / 65535.0, gamma)); });
+        else
+            fill([&](std::size_t i) { return srgb_decode_table()[codes[i]]; });
     }
     return texture;
 }
@@ -201,26 +267,21 @@ bool is_display_image_name(const std::filesystem::path& file) {
     return !writable_format(file).empty() && !is_radiance_image_name(file);
 }
 
+bool is_jpeg_name(const std::filesystem::path& file) {
+    return writable_format(file) == "jpeg";
+}
+
 std::expected<void, std::string> write_display_image(const std::filesystem::path& file, const DisplayImage& image,
                                                      const ImageMetadata& metadata) {
-    const auto checked = check_picture(file, image.width, image.height, image.rgb.size(), metadata,
-                                       is_display_image_name(file), ".png .jpg .jpeg .tif .tiff");
-    if (!checked) return checked;
-    OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::UINT8);
-    // Not for TIFF: it makes an EXIF directory, and OpenImageIO before 2.5 cannot write one to memory (its pull request
-    // 4300).
-    if (writable_format(file) != "tiff") spec.attribute("oiio:ColorSpace", "sRGB");
-    spec.attribute("Software", "Lueur " LUEUR_VERSION);
-    if (writable_format(file) == "png") {
-        for (const auto& [key, value] : metadata) spec.attribute(key, value);
-    } else {
-        if (!metadata.empty()) spec.attribute("ImageDescription", text_from_metadata(metadata));
-    }
-    if (writable_format(file) == "jpeg") {
-        spec.attribute("Compression", "jpeg:95");
-        spec.attribute("jpeg:subsampling", "4:4:4");
-    }
-    return write_image(file, spec, OIIO::TypeDesc::UINT8, image.rgb.data());
+    return write_codes(file, image, metadata, OIIO::TypeDesc::UINT8);
+}
+
+std::expected<void, std::string> write_display_image(const std::filesystem::path& file, const DeepDisplayImage& image,
+                                                     const ImageMetadata& metadata) {
+    if (is_jpeg_name(file))
+        return std::unexpected(
+            fmt::format("{}: a JPEG holds 8 bits a channel; allowed: .png .tif for 16 bits", file.string()));
+    return write_codes(file, image, metadata, OIIO::TypeDesc::UINT16);
 }
 
 std::expected<void, std::string> write_radiance_image(const std::filesystem::path& file, const RadianceImage& image,
@@ -249,6 +310,77 @@ std::expected<void, std::string> write_radiance_image(const std::filesystem::pat
         for (const auto& [key, value] : metadata) spec.attribute(key, value);
     }
     return write_image(file, spec, OIIO::TypeDesc::FLOAT, rgb.data());
+}
+
+std::expected<void, std::string> write_spectral_image(const std::filesystem::path& file, const SpectralImage& image,
+                                                      const RadianceImage& preview, const ImageMetadata& metadata) {
+    const std::size_t count = preview.xyz.size(), bands = image.nm.size();
+    const auto checked =
+        check_picture(file, image.width, image.height, count, metadata, writable_format(file) == "openexr", ".exr");
+    if (!checked) return checked;
+    const auto fault = [&](const std::string& what) {
+        return std::unexpected(
+            fmt::format("{}: {}; allowed: one plane of {} x {} pixels for each of one or more rising "
+                        "wavelengths above 0 nm",
+                        file.string(), what, image.width, image.height));
+    };
+    if (bands == 0 || image.planes.size() != bands)
+        return fault(fmt::format("{} wavelengths with {} planes", bands, image.planes.size()));
+    for (std::size_t b = 0; b < bands; ++b) {
+        if (!std::isfinite(image.nm[b]) || image.nm[b] <= (b == 0 ? 0 : image.nm[b - 1]))
+            return fault(fmt::format("wavelength {} is {} nm", b + 1, image.nm[b]));
+        if (image.planes[b].size() != count)
+            return fault(fmt::format("plane {} has {} pixels", b + 1, image.planes[b].size()));
+    }
+    const std::size_t channels = 3 + bands;
+    OIIO::ImageSpec spec(image.width, image.height, static_cast<int>(channels), OIIO::TypeDesc::FLOAT);
+    spec.channelnames = {"R", "G", "B"};
+    for (const double nm : image.nm) spec.channelnames.push_back(spectral_channel_name(nm));
+    spec.attribute("compression", "zip");
+    spec.attribute("Software", "Lueur " LUEUR_VERSION);
+    spec.attribute("spectralLayoutVersion", "1.0");
+    spec.attribute("emissiveUnits", "W.m^-2.sr^-1.nm^-1");
+    spec.attribute("ImageDescription",
+                   "Spectral radiance, one channel a wavelength; R, G, B: linear sRGB in cd m^-2\n" +
+                       text_from_metadata(metadata));
+    for (const auto& [key, value] : metadata) spec.attribute(key, value);
+
+    const glm::dmat3 rgb_from = rgb_from_xyz(srgb);
+    std::vector<float> values;
+    values.reserve(count * channels);
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::vec3 rgb(rgb_from * Xyz(preview.xyz[i]));
+        values.insert(values.end(), {rgb.r, rgb.g, rgb.b});
+        for (const auto& plane : image.planes) values.push_back(plane[i]);
+    }
+    return write_image(file, spec, OIIO::TypeDesc::FLOAT, values.data());
+}
+
+std::expected<SpectralImage, std::string> read_spectral_image(const std::filesystem::path& file) {
+    const auto bytes = read_bytes(file);
+    if (!bytes) return std::unexpected(bytes.error());
+    auto reader = open_bytes(*bytes, file.string());
+    if (!reader) return std::unexpected(reader.error());
+    const OIIO::ImageSpec& spec = reader->spec;
+    std::map<double, int> channels; // nm -> index
+    for (int c = 0; c < spec.nchannels; ++c)
+        if (const auto nm = wavelength_of_channel(spec.channelnames[static_cast<std::size_t>(c)])) channels[*nm] = c;
+    const auto size = static_cast<std::int64_t>(spec.width) * spec.height;
+    if (channels.empty() || size <= 0 || size * spec.nchannels > 8 * max_pixels)
+        return std::unexpected(fmt::format("{}: has no spectral channels, or too many pixels; allowed: an EXR with "
+                                           "channels S0.NNN,Nnm",
+                                           file.string()));
+    const std::size_t count = static_cast<std::size_t>(size), stride = static_cast<std::size_t>(spec.nchannels);
+    std::vector<float> values(count * stride);
+    if (!reader->input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data()))
+        return std::unexpected(fmt::format("{}: is broken ({})", file.string(), one_line(reader->input->geterror())));
+    SpectralImage image{spec.width, spec.height, {}, {}};
+    for (const auto& [nm, channel] : channels) {
+        image.nm.push_back(nm);
+        auto& plane = image.planes.emplace_back(count);
+        for (std::size_t i = 0; i < count; ++i) plane[i] = values[i * stride + static_cast<std::size_t>(channel)];
+    }
+    return image;
 }
 
 std::expected<ImageMetadata, std::string> read_image_metadata(const std::filesystem::path& file) {

@@ -24,21 +24,50 @@ using ImageMetadata = std::map<std::string, std::string>;
 // (PNG text chunks; JPEG comment / ImageDescription as `key = value` lines).
 std::expected<void, std::string> write_display_image(const std::filesystem::path& file, const DisplayImage& image,
                                                      const ImageMetadata& metadata);
+// 16 bits a channel: .png .tif .tiff.
+std::expected<void, std::string> write_display_image(const std::filesystem::path& file, const DeepDisplayImage& image,
+                                                     const ImageMetadata& metadata);
 
 // .exr .hdr take the scene-referred radiance, as linear sRGB in cd m^-2. An .exr says so in its header and has the
 // metadata as attributes; an .hdr has room for neither.
 std::expected<void, std::string> write_radiance_image(const std::filesystem::path& file, const RadianceImage& image,
                                                       const ImageMetadata& metadata);
 
-// What the two above wrote.
+// Spectral radiance in W m^-2 sr^-1 nm^-1, one plane a wavelength, row-major from the top left.
+struct SpectralImage {
+    int width = 0, height = 0;
+    std::vector<double> nm;                 // rising, above 0
+    std::vector<std::vector<float>> planes; // one a wavelength
+    bool operator==(const SpectralImage&) const = default;
+};
+// .exr in the layout of Fichet, Pacanowski & Wilkie 2021, "An OpenEXR Layout for Spectral Images" (Journal of Computer
+// Graphics Techniques 10(3)): channels "S0.500,0nm" (the unpolarised Stokes component; a comma, since EXR takes a full
+// stop for the end of a layer's name), the attributes spectralLayoutVersion "1.0" and emissiveUnits, and R, G, B of
+// `preview` (linear sRGB in cd m^-2) for programs that know nothing of spectra.
+std::expected<void, std::string> write_spectral_image(const std::filesystem::path& file, const SpectralImage& image,
+                                                      const RadianceImage& preview, const ImageMetadata& metadata);
+std::expected<SpectralImage, std::string> read_spectral_image(const std::filesystem::path& file);
+
+// What the writers above wrote.
 std::expected<ImageMetadata, std::string> read_image_metadata(const std::filesystem::path& file);
 
 bool is_radiance_image_name(const std::filesystem::path& file); // .exr .hdr
 bool is_display_image_name(const std::filesystem::path& file);  // .png .jpg .jpeg .tif .tiff
+bool is_jpeg_name(const std::filesystem::path& file);           // of them, those with 8 bits a channel only
 
-// A texture: linear RGB reflectance 0..1 in float, row-major from the top left; 8 and 16 bit integers are decoded from
-// sRGB, float files are taken as linear and must hold 0..1; grey becomes three equal channels; palettes are expanded;
-// alpha is dropped. .png .jpg .tif .exr .hdr .bmp .tga, told by their first bytes and not by their names.
+// A texture: linear RGB reflectance 0..1 in float, row-major from the top left. .png .jpg .tif .exr .hdr .bmp .tga,
+// told by their first bytes and not by their names.
+//   8 bit             codes of sRGB, decoded by its curve
+//   16 bit            the same curve, with all 65536 codes kept apart
+//   1, 2, 4 bit       spread over 0..1, then as 8 bit
+//   float and half    linear already; must hold 0..1
+//   tagged linear     a PNG with gAMA 1.0: integers taken as they are, without a curve
+//   tagged with gamma a PNG with gAMA and no sRGB chunk: light = code^(1 / gAMA); 1/2.2 among them
+//   tagged sRGB, ICC  as sRGB; an ICC profile is not read
+//   grey              three equal channels
+//   palette           its colours, as 8 bit
+//   alpha             dropped, and darkens nothing: a surface reflects with the colour that is stored, however
+//                     transparent the picture says it is
 struct TextureImage {
     int width = 0, height = 0;
     std::vector<glm::vec3> rgb;

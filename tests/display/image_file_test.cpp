@@ -90,6 +90,71 @@ TEST_F(ImageFile, LosslessFilesKeepEveryPixel) {
     }
 }
 
+TEST_F(ImageFile, SixteenBitsAreKept) {
+    DeepDisplayImage deep{256, 1, {}};
+    for (int i = 0; i < 256; ++i)
+        deep.rgb.push_back({static_cast<std::uint16_t>(256 * i + 1), static_cast<std::uint16_t>(65535 - 255 * i),
+                            static_cast<std::uint16_t>(i)});
+    for (const char* name : {"a.png", "a.tif"}) {
+        const auto written = write_display_image(folder / name, deep, some_metadata);
+        ASSERT_TRUE(written) << written.error();
+        EXPECT_EQ(*read_image_metadata(folder / name), some_metadata) << name;
+        const auto back = read_texture(folder / name);
+        ASSERT_TRUE(back) << back.error();
+        for (std::size_t i = 0; i < 256; ++i)
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(65535 * srgb_encode(back->rgb[i][c]), deep.rgb[i][static_cast<std::size_t>(c)], 0.2)
+                    << name << i;
+    }
+    const auto jpeg = write_display_image(folder / "a.jpg", deep, {});
+    ASSERT_FALSE(jpeg);
+    EXPECT_THAT(jpeg.error(), AllOf(HasSubstr("8 bits"), HasSubstr("allowed: .png .tif")));
+}
+
+TEST_F(ImageFile, SpectralExrIsReadBackAndNamesItsChannelsAsPublished) {
+    SpectralImage image{2, 3, {380, 512.5, 555, 1064.25}, {}};
+    RadianceImage preview{2, 3, {}};
+    for (std::size_t i = 0; i < 6; ++i)
+        preview.xyz.push_back(glm::vec3(xyz_from_rgb(srgb) * Rgb(0.1 * static_cast<double>(i))));
+    for (int b = 0; b < 4; ++b) {
+        auto& plane = image.planes.emplace_back();
+        for (int i = 0; i < 6; ++i) plane.push_back(static_cast<float>(100 * b + i) + 1e-7f);
+    }
+    const auto written = write_spectral_image(folder / "a.exr", image, preview, some_metadata);
+    ASSERT_TRUE(written) << written.error();
+    const auto back = read_spectral_image(folder / "a.exr");
+    ASSERT_TRUE(back) << back.error();
+    EXPECT_EQ(*back, image);
+    EXPECT_EQ(*read_image_metadata(folder / "a.exr"), some_metadata);
+    const std::string bytes = read(folder / "a.exr");
+    for (const char* part : {"S0.380,0nm", "S0.512,5nm", "S0.555,0nm", "S0.1064,25nm", "spectralLayoutVersion", "1.0",
+                             "emissiveUnits", "W.m^-2.sr^-1.nm^-1"})
+        EXPECT_THAT(bytes, HasSubstr(part));
+    // A program that knows nothing of spectra finds R, G and B.
+    const auto seen = read_texture(folder / "a.exr");
+    ASSERT_TRUE(seen) << seen.error();
+    EXPECT_NEAR(seen->rgb[5].g, 0.5, 1e-6);
+}
+
+TEST_F(ImageFile, SpectralImagesThatAreNoneAreRefused) {
+    const RadianceImage preview{1, 1, {glm::vec3(0)}};
+    const auto refused = [&](const SpectralImage& image, const std::string& name, const std::string& what) {
+        const auto written = write_spectral_image(folder / name, image, preview, {});
+        ASSERT_FALSE(written) << what;
+        EXPECT_THAT(written.error(), AllOf(HasSubstr(what), HasSubstr("; allowed: ")));
+    };
+    refused({1, 1, {500}, {{1.0f}}}, "a.png", "unknown kind of picture");
+    refused({1, 1, {}, {}}, "a.exr", "0 wavelengths");
+    refused({1, 1, {500, 500}, {{1.0f}, {1.0f}}}, "a.exr", "wavelength 2 is 500 nm");
+    refused({1, 1, {-5}, {{1.0f}}}, "a.exr", "wavelength 1 is -5 nm");
+    refused({1, 1, {500}, {{1.0f, 2.0f}}}, "a.exr", "plane 1 has 2 pixels");
+    refused({1, 1, {500, 600}, {{1.0f}}}, "a.exr", "2 wavelengths with 1 planes");
+    refused({2, 1, {500}, {{1.0f}}}, "a.exr", "2 x 1 with 1 pixels");
+    EXPECT_THAT(entries(), IsEmpty());
+    ASSERT_TRUE(write_radiance_image(folder / "plain.exr", preview, {}));
+    EXPECT_THAT(read_spectral_image(folder / "plain.exr").error(), HasSubstr("has no spectral channels"));
+}
+
 TEST_F(ImageFile, JpegKeepsColourEdges) { // 4:4:4: red beside blue stays red beside blue
     DisplayImage stripes{16, 16, {}};
     for (int i = 0; i < 256; ++i)

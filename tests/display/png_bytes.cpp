@@ -43,8 +43,12 @@ std::string zlib_stored(const std::string& bytes) { // one stored block, RFC 195
 
 } // namespace
 
+std::string png_chunk(const std::string& type, const std::string& data) {
+    return chunk(type, data);
+}
+
 std::string png_bytes(std::uint32_t width, std::uint32_t height, std::uint8_t bit_depth, PngColour colour,
-                      const std::string& rows, const std::string& palette) {
+                      const std::string& rows, const std::string& palette, const std::string& chunks) {
     std::string header = big_endian(width) + big_endian(height);
     header += static_cast<char>(bit_depth);
     header += static_cast<char>(colour);
@@ -54,7 +58,7 @@ std::string png_bytes(std::uint32_t width, std::uint32_t height, std::uint8_t bi
     for (std::uint32_t y = 0; y < height; ++y)
         filtered += '\0' + rows.substr(y * bytes_a_row, bytes_a_row); // filter: none
     std::string png("\x89PNG\r\n\x1a\n", 8);
-    png += chunk("IHDR", header);
+    png += chunk("IHDR", header) + chunks;
     if (!palette.empty()) png += chunk("PLTE", palette);
     return png + chunk("IDAT", zlib_stored(filtered)) + chunk("IEND", "");
 }

@@ -81,6 +81,40 @@ TEST_F(Texture, AlphaIsDroppedAndDarkensNothing) {
     expect_texels(read_texture(grey), 2, 1, {Rgb(128 / 255.0), Rgb(128 / 255.0)});
 }
 
+// gAMA holds 100000 / exponent; sRGB its rendering intent (ISO/IEC 15948, 11.3.3).
+TEST_F(Texture, TheTaggedColourSpaceIsFollowed) {
+    const auto texel = [&](const std::string& chunks, std::uint8_t bits) {
+        const std::string code = bits == 16 ? "\x80\x80"s : "\x80"s; // 128/255 either way
+        const auto texture = read_texture(write("t.png", png_bytes(1, 1, bits, PngColour::grey, code, {}, chunks)));
+        EXPECT_TRUE(texture) << texture.error();
+        return texture ? static_cast<double>(texture->rgb[0].g) : -1;
+    };
+    const auto gamma = [](std::uint32_t value) {
+        return png_chunk("gAMA", {static_cast<char>(value >> 24), static_cast<char>(value >> 16),
+                                  static_cast<char>(value >> 8), static_cast<char>(value)});
+    };
+    const double code = 128 / 255.0;
+    for (const std::uint8_t bits : {std::uint8_t{8}, std::uint8_t{16}}) {
+        EXPECT_NEAR(texel("", bits), srgb_decode(code), 1e-6) << "no word is sRGB";
+        EXPECT_NEAR(texel(png_chunk("sRGB", "\0"s), bits), srgb_decode(code), 1e-6);
+        EXPECT_NEAR(texel(gamma(45455) + png_chunk("sRGB", "\0"s), bits), srgb_decode(code), 1e-6)
+            << "sRGB goes before gAMA";
+        EXPECT_NEAR(texel(gamma(100000), bits), code, 1e-6) << "linear";
+        EXPECT_NEAR(texel(gamma(45455), bits), std::pow(code, 2.2), 1e-6);
+        EXPECT_NEAR(texel(gamma(55556), bits), std::pow(code, 1.8), 1e-6);
+        EXPECT_NEAR(texel(gamma(1), bits), srgb_decode(code), 1e-6) << "an exponent of 100000 is no curve";
+    }
+}
+
+TEST_F(Texture, FewBitsAreSpreadOverTheWholeRange) {
+    expect_texels(read_texture(write("2.png", png_bytes(4, 1, 2, PngColour::grey, "\x1b"s))), 4, 1,
+                  {Rgb(0), Rgb(1 / 3.0), Rgb(2 / 3.0), Rgb(1)});
+    expect_texels(read_texture(write("4.png", png_bytes(2, 1, 4, PngColour::grey, "\x0f"s))), 2, 1, {Rgb(0), Rgb(1)});
+    expect_texels(
+        read_texture(write("p.png", png_bytes(2, 1, 1, PngColour::palette, "\x40"s, "\x10\x20\x30\xff\x00\x80"s))), 2,
+        1, {{16 / 255.0, 32 / 255.0, 48 / 255.0}, {1, 0, 128 / 255.0}});
+}
+
 TEST_F(Texture, JpegAndTiffAreRead) {
     const DisplayImage grey{8, 8, std::vector<std::array<std::uint8_t, 3>>(64, {128, 128, 128})};
     for (const char* name : {"t.jpg", "t.tif"}) {

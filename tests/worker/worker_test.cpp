@@ -58,7 +58,7 @@ public:
             return GiveOwnMaterial{static_cast<ObjectIndex>(pick(scene.objects.size()))};
         case 6: {
             DisplaySettings display = scene.display;
-            display.gamma = uniform(1, 3);
+            display.gamma = glm::dvec3(uniform(1, 3));
             return SetDisplay{display};
         }
         case 7:
@@ -99,7 +99,10 @@ TEST(Worker, SettlesAndSleeps) {
 
 TEST(Worker, RandomEditsWhileSolvingSettleWhereAFreshSolveDoes) {
     RandomEdits edits(7);
-    Document document(quick_room());
+    // auto keeps the wavelengths it has while they are good enough: its history shows within the colour error allowed.
+    Scene scene = quick_room();
+    scene.solve.wavelengths = {WavelengthRule::uniform, 31};
+    Document document(std::move(scene));
     std::atomic<int> wakes{0};
     Worker worker({.threads = 1, .publish_interval = 0.002, .wake = [&] { ++wakes; }});
     worker.submit(document.shared_scene(), document.revision(), Stage::mesh);
@@ -199,7 +202,7 @@ TEST(Worker, EditsTraceNoMoreThanTheyMust) {
         return worker.latest();
     };
     DisplaySettings display = document.scene().display;
-    display.gamma = 1.7;
+    display.gamma = glm::dvec3(1.7);
     const auto shown = after(SetDisplay{display});
     EXPECT_EQ(shown->status.rays, before->status.rays);
     EXPECT_EQ(shown->status.sweeps, before->status.sweeps);

@@ -4,7 +4,7 @@ R"glsl(
 in Point {
     vec4 light;
 #ifdef TEXTURED
-    vec3 reflected;
+    mat3 by_texel;
     vec2 uv;
 #endif
 } point;
@@ -14,7 +14,6 @@ uniform float line_width; // pixels
 #endif
 #ifdef TEXTURED
 uniform sampler2D texels; // linear RGB reflectance
-uniform vec3 mean_rgb;    // that the solution was made with
 #endif
 #ifdef HIGHLIGHT
 uniform uint highlighted;   // coarse patch
@@ -28,8 +27,7 @@ out vec4 seen;
 void main() {
     seen = point.light;
 #ifdef TEXTURED
-    seen.rgb += point.reflected *
-                mix(vec3(1), texture(texels, point.uv).rgb / max(mean_rgb, vec3(1e-6)), greaterThan(mean_rgb, vec3(1e-6)));
+    seen.rgb += point.by_texel * texture(texels, point.uv).rgb;
 #endif
 #ifdef HIGHLIGHT
     if (texelFetch(patches, first_element + gl_PrimitiveID).r == highlighted)

@@ -9,14 +9,14 @@ uniform vec2 viewport_size;
 in Point {
     vec4 light;
 #ifdef TEXTURED
-    vec3 reflected;
+    mat3 by_texel;
     vec2 uv;
 #endif
 } corner[];
 out Point {
     vec4 light;
 #ifdef TEXTURED
-    vec3 reflected;
+    mat3 by_texel;
     vec2 uv;
 #endif
 } point;
@@ -39,7 +39,7 @@ void main() {
         gl_PrimitiveID = gl_PrimitiveIDIn;
         point.light = corner[i].light;
 #ifdef TEXTURED
-        point.reflected = corner[i].reflected;
+        point.by_texel = corner[i].by_texel;
         point.uv = corner[i].uv;
 #endif
         edge_distance = behind ? vec3(1e6) : vec3(i == 0 ? height.x : 0.0, i == 1 ? height.y : 0.0, i == 2 ? height.z : 0.0);
