@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/scene/scene_file.h"
+#include "editor/asset_path.h"
 
 namespace lueur {
 
@@ -81,7 +82,7 @@ Stage Document::exchange(std::vector<Step>& from, std::vector<Step>& to) {
 
 std::expected<void, std::vector<std::string>> Document::open(const std::filesystem::path& file,
                                                              std::vector<std::string>& warnings) {
-    auto loaded = load_scene(file);
+    auto loaded = load_scene(file, {.spectrum_library = asset_path("spectra")});
     if (!loaded) return std::unexpected(std::move(loaded.error()));
     warnings.insert(warnings.end(), loaded->warnings.begin(), loaded->warnings.end());
     scene_ = std::make_shared<const Scene>(std::move(loaded->scene));

@@ -25,6 +25,11 @@ std::optional<Probe> probe(const Snapshot& snapshot, glm::vec3 origin, glm::vec3
     result.radiance = point->radiance;
     result.rgb = rgb_from_xyz(srgb) * point->radiance;
     result.unshot = point->unshot;
+    result.colour_difference = point->colour_difference;
+    if (const auto channels = irradiance_channels(*snapshot.field, *point); !channels.empty()) {
+        result.irradiance_spectrum = spectrum_from_channels(*snapshot.field->wavelengths, channels);
+        result.irradiance_watts = watts_from_channels(*snapshot.field->wavelengths, channels);
+    }
     return result;
 }
 

@@ -37,9 +37,13 @@ struct Probe {
     MaterialIndex material{};
     std::optional<LuminaireIndex> luminaire;
     Xyz irradiance{0}; // Y in lx
-    Xyz radiance{0};   // towards the eye, Y in cd m^-2; textures included
-    Rgb rgb{0};        // linear sRGB of the radiance, cd m^-2
+    Spectrum
+        irradiance_spectrum;     // W m^-2 nm^-1; empty with rgb wavelengths and where the scene is too large to keep it
+    double irradiance_watts = 0; // W m^-2, 380..780 nm
+    Xyz radiance{0};             // towards the eye, Y in cd m^-2; textures included
+    Rgb rgb{0};                  // linear sRGB of the radiance, cd m^-2
     float unshot = 0;
+    float colour_difference = 0; // CIEDE2000 from the trichromatic approach, where that is solved beside
 };
 
 std::optional<Probe> probe(const Snapshot& snapshot, glm::vec3 origin, glm::vec3 direction);

@@ -82,8 +82,10 @@ void EditorWindow::draw() {
         window_->set_scale(scale);
         frames_left_ = 3;
     }
+    const auto shares = state_.shares;
     const auto edits = main_layout(document_, *snapshot_, state_,
                                    [&] { return viewport(document_, *snapshot_, state_, view_, *renderer_, now, dt); });
+    if (!(shares == state_.shares)) frames_left_ = std::max(frames_left_, 1); // the panels stood before the picture
     for (const auto& edit : edits) apply(edit);
     if (!edits.empty()) frames_left_ = std::max(frames_left_, 1);
 
@@ -123,10 +125,13 @@ void EditorWindow::log_facts() {
     log.fact("settled",
              truth(snapshot_->status.settled && snapshot_->document_revision >= submitted_revision_ && !previewing_));
     log.fact("refined", truth(view_.refined));
+    log.fact("snapshot_revision", fmt::format("{}", snapshot_->revision));
+    log.fact("rays", fmt::format("{}", snapshot_->status.rays));
+    log.fact("sweeps", fmt::format("{}", snapshot_->status.sweeps));
     log.fact("max_display", fmt::format("{}", display.max_display));
-    log.fact("gamma", fmt::format("{}", display.gamma));
+    log.fact("gamma", fmt::format("{}", display.gamma.g));
     log.fact("srgb_curve", truth(display.curve == TransferCurve::srgb));
-    log.fact("exposure_final", truth(state_.exposure.final || !document_.scene().display.max_display_auto));
+    log.fact("exposure_final", truth(state_.exposure.final || !follows_picture(document_.scene().display)));
     std::string dimmers, separator;
     for (const auto& luminaire : document_.scene().luminaires) {
         dimmers += fmt::format("{}{}", separator, luminaire.dimmer);

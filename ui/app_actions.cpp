@@ -4,6 +4,7 @@
 #include <imgui.h>
 
 #include "core/scene/scene_file.h"
+#include "core/spectrum/read_spectrum.h"
 #include "editor/asset_path.h"
 #include "ui/dropped_files.h"
 #include "ui/editor_window.h"
@@ -25,7 +26,7 @@ Stage narrowed(Stage stage, const Scene& before, const Scene& after) {
 
 void EditorWindow::start(const EditorCommand& command) {
     const auto file = command.scene.empty() ? default_scene_file() : command.scene;
-    auto loaded = load_scene(file);
+    auto loaded = load_scene(file, {.spectrum_library = asset_path("spectra")});
     if (!loaded) {
         for (const auto& error : loaded.error()) fmt::print(stderr, "{}\n", error);
         state_.open_errors = loaded.error();
@@ -98,6 +99,22 @@ void EditorWindow::apply(const Edit& edit) {
     submit(narrowed(*stage, *before, document_.scene()));
 }
 
+void EditorWindow::save_picture(const std::filesystem::path& file) {
+    ScreenshotParams params;
+    params.snapshot = snapshot_;
+    params.camera = document_.scene().camera;
+    params.display = display_in_use(document_.scene().display, state_.exposure);
+    params.display.luminance_scale = state_.scales_in_use.luminance;
+    params.display.illuminance_scale = state_.scales_in_use.illuminance;
+    take_view(params, state_.view);
+    params.bits = state_.picture_bits;
+    params.width = std::max(view_.width, 16);
+    params.height = std::max(view_.height, 16);
+    params.scene_file = document_.file();
+    params.output = file;
+    screenshots_.start(std::move(params));
+}
+
 void EditorWindow::do_command(Command command) {
     switch (command) {
     case Command::open:
@@ -112,18 +129,12 @@ void EditorWindow::do_command(Command command) {
     case Command::save_as:
         state_.file_request = FileRequest{FilePurpose::save_scene, {}, {}, {}};
         break;
-    case Command::screenshot: {
-        ScreenshotParams params;
-        params.snapshot = snapshot_;
-        params.camera = document_.scene().camera;
-        params.display = display_in_use(document_.scene().display, state_.exposure);
-        params.width = std::max(view_.width, 16);
-        params.height = std::max(view_.height, 16);
-        params.scene_file = document_.file();
-        params.output = new_screenshot_file();
-        screenshots_.start(std::move(params));
+    case Command::screenshot:
+        save_picture(new_screenshot_file());
         break;
-    }
+    case Command::screenshot_as:
+        state_.file_request = FileRequest{FilePurpose::save_picture, {}, {}, {}};
+        break;
     case Command::quit:
         ask_first({true, {}});
         break;
@@ -143,6 +154,21 @@ void EditorWindow::do_command(Command command) {
         break;
     case Command::view_unshot:
         state_.view = ViewMode::unshot;
+        break;
+    case Command::view_luminance:
+        state_.view = ViewMode::luminance;
+        break;
+    case Command::view_illuminance:
+        state_.view = ViewMode::illuminance;
+        break;
+    case Command::view_side_by_side:
+    case Command::view_difference:
+        state_.view = command == Command::view_difference ? ViewMode::difference : ViewMode::side_by_side;
+        if (auto solve = document_.scene().solve;
+            !solve.compare_trichromatic && solve.wavelengths.rule != WavelengthRule::rgb) {
+            solve.compare_trichromatic = true;
+            apply(SetSolve{solve});
+        }
         break;
     case Command::frame_selection:
     case Command::home:
@@ -206,7 +232,7 @@ void EditorWindow::take_events() {
     if (events.close) ask_first({true, {}});
     const bool modal = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
     for (const auto& [key, modifiers] : events.keys)
-        if (!modal && !ImGui::GetIO().WantTextInput)
+        if (!modal && !ImGui::GetIO().WantTextInput && !state_.curve.active()) // whose keys a point being dragged takes
             if (const auto command = command_for_key(key, modifiers)) state_.commands.push_back(*command);
     for (const auto& file : events.dropped) {
         switch (kind_of_dropped(file)) {
@@ -219,7 +245,7 @@ void EditorWindow::take_events() {
             window_->pointer(x, y);
             const auto target =
                 probe_at(*snapshot_, document_.scene().camera, view_, static_cast<float>(x), static_cast<float>(y));
-            if (auto edit = edit_of_dropped(file, document_.scene(), target)) {
+            if (auto edit = edit_of_dropped(file, document_.scene(), target, state_.spectrum_target)) {
                 apply(*edit);
                 document_.end_drag();
             } else
@@ -227,8 +253,8 @@ void EditorWindow::take_events() {
             break;
         }
         case DroppedKind::unknown:
-            say(Severity::error,
-                file.filename().string() + ": not a scene (.toml .obj .gltf .glb), picture or spectrum (.csv)");
+            say(Severity::error, file.filename().string() +
+                                     ": not a scene (.toml .obj .gltf .glb), picture or spectrum (.csv .spd .sp .cmf)");
             break;
         }
     }
@@ -246,11 +272,14 @@ void EditorWindow::request_file(const FileRequest& request) {
         browser_.open("Save the scene", {".toml"}, true, name.replace_extension(".toml"));
         break;
     }
+    case FilePurpose::save_picture: // the first ending is the one that a name without any gets
+        browser_.open("Save the picture", {".png", ".jpg", ".tif", ".exr", ".hdr"}, true, new_screenshot_file());
+        break;
     case FilePurpose::reflectance_spectrum:
-        browser_.open("Spectrum of a reflectance", {".csv"}, false, folder);
+        browser_.open("Spectrum of a reflectance", spectrum_extensions(), false, folder);
         break;
     case FilePurpose::emission_spectrum:
-        browser_.open("Spectrum of a lamp", {".csv"}, false, folder);
+        browser_.open("Spectrum of a lamp", spectrum_extensions(), false, folder);
         break;
     case FilePurpose::texture:
         browser_.open("Texture", picture_extensions(), false, folder);
@@ -274,6 +303,9 @@ void EditorWindow::file_chosen(const std::filesystem::path& file) {
     case FilePurpose::save_scene:
         if (save(file) && pending_after_save_) do_pending();
         pending_after_save_ = false;
+        break;
+    case FilePurpose::save_picture:
+        save_picture(file);
         break;
     case FilePurpose::reflectance_spectrum:
         use(reflectance_edit(file, browsing_for_.column, document_.scene(), browsing_for_.material));

@@ -7,17 +7,22 @@
 namespace lueur {
 namespace {
 
-constexpr std::array<CommandInfo, 21> table{{
+constexpr std::array<CommandInfo, 26> table{{
     {Command::open, "Open...", "Ctrl+O"},
     {Command::save, "Save", "Ctrl+S"},
     {Command::save_as, "Save as...", "Ctrl+Shift+S"},
     {Command::screenshot, "Save picture", "F12 or P"},
+    {Command::screenshot_as, "Save picture as...", "Shift+P"},
     {Command::quit, "Quit", "Ctrl+Q"},
     {Command::undo, "Undo", "Ctrl+Z"},
     {Command::redo, "Redo", "Ctrl+Y"},
     {Command::view_shaded, "Shaded", "1"},
     {Command::view_elements, "Elements", "2"},
     {Command::view_unshot, "Unshot energy", "3"},
+    {Command::view_luminance, "Luminance in false colours", "4"},
+    {Command::view_illuminance, "Illuminance, isolux lines", "5"},
+    {Command::view_side_by_side, "Spectral beside RGB", "6"},
+    {Command::view_difference, "Difference from RGB", "7"},
     {Command::frame_selection, "Frame the selection, or all", "F"},
     {Command::home, "Camera of the scene", "Home"},
     {Command::toggle_panels, "Hide or show the panels", "Tab"},
@@ -67,7 +72,7 @@ std::optional<Command> command_for_key(int key, int modifiers) {
     switch (key) {
     case GLFW_KEY_F12:
     case GLFW_KEY_P:
-        return Command::screenshot;
+        return shift ? Command::screenshot_as : Command::screenshot;
     case GLFW_KEY_1:
     case GLFW_KEY_KP_1:
         return Command::view_shaded;
@@ -77,6 +82,18 @@ std::optional<Command> command_for_key(int key, int modifiers) {
     case GLFW_KEY_3:
     case GLFW_KEY_KP_3:
         return Command::view_unshot;
+    case GLFW_KEY_4:
+    case GLFW_KEY_KP_4:
+        return Command::view_luminance;
+    case GLFW_KEY_5:
+    case GLFW_KEY_KP_5:
+        return Command::view_illuminance;
+    case GLFW_KEY_6:
+    case GLFW_KEY_KP_6:
+        return Command::view_side_by_side;
+    case GLFW_KEY_7:
+    case GLFW_KEY_KP_7:
+        return Command::view_difference;
     case GLFW_KEY_F:
         return Command::frame_selection;
     case GLFW_KEY_HOME:

@@ -4,6 +4,7 @@
 #include <cctype>
 
 #include "core/scene/scene_file.h"
+#include "core/spectrum/read_spectrum.h"
 
 namespace lueur {
 namespace {
@@ -16,7 +17,7 @@ std::string extension_of(const std::filesystem::path& file) {
 
 std::expected<SpectrumFile, std::string> read(const std::filesystem::path& file, const std::string& column,
                                               const Scene& scene) {
-    auto spectrum = read_spectrum_csv(file, column);
+    auto spectrum = read_spectrum(file, column);
     if (!spectrum) {
         const auto& errors = spectrum.error();
         if (errors.empty()) return std::unexpected(file.string() + ": cannot be read");
@@ -39,7 +40,7 @@ DroppedKind kind_of_dropped(const std::filesystem::path& file) {
     const auto extension = extension_of(file);
     for (const char* scene : {".toml", ".obj", ".gltf", ".glb"})
         if (extension == scene) return DroppedKind::scene;
-    if (extension == ".csv") return DroppedKind::spectrum;
+    if (std::ranges::count(spectrum_extensions(), extension)) return DroppedKind::spectrum;
     return std::ranges::count(picture_extensions(), extension) ? DroppedKind::picture : DroppedKind::unknown;
 }
 
@@ -65,7 +66,13 @@ std::expected<Edit, std::string> emission_edit(const std::filesystem::path& file
 }
 
 std::expected<Edit, std::string> edit_of_dropped(const std::filesystem::path& file, const Scene& scene,
-                                                 const std::optional<Probe>& target) {
+                                                 const std::optional<Probe>& target, const SpectrumTarget& open) {
+    if (!target && kind_of_dropped(file) == DroppedKind::spectrum) {
+        const auto* luminaire = std::get_if<LuminaireIndex>(&open);
+        if (luminaire && at(*luminaire) < scene.luminaires.size()) return emission_edit(file, {}, scene, *luminaire);
+        const auto* material = std::get_if<MaterialIndex>(&open);
+        if (material && at(*material) < scene.materials.size()) return reflectance_edit(file, {}, scene, *material);
+    }
     if (!target || at(target->material) >= scene.materials.size())
         return std::unexpected(file.filename().string() + ": drop it on the surface it is for");
     if (kind_of_dropped(file) == DroppedKind::picture) return texture_edit(file, scene, target->material);

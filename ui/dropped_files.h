@@ -9,6 +9,7 @@
 
 #include "editor/edit.h"
 #include "editor/snapshot.h"
+#include "ui/spectrum_state.h"
 
 namespace lueur {
 
@@ -25,8 +26,8 @@ std::expected<Edit, std::string> emission_edit(const std::filesystem::path& file
                                                const Scene& scene, LuminaireIndex luminaire);
 
 // A picture becomes the texture of the surface it fell on, a spectrum its reflectance, or the lamp's spectrum where it
-// fell on a lamp.
+// fell on a lamp. Beside the picture, a spectrum is for what the panel in front has open.
 std::expected<Edit, std::string> edit_of_dropped(const std::filesystem::path& file, const Scene& scene,
-                                                 const std::optional<Probe>& target);
+                                                 const std::optional<Probe>& target, const SpectrumTarget& open = {});
 
 } // namespace lueur

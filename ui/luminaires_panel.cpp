@@ -7,6 +7,7 @@
 
 #include "core/scene/luminaire.h"
 #include "ui/panels.h"
+#include "ui/spectrum_editor.h"
 #include "ui/swatch.h"
 #include "ui/widgets.h"
 
@@ -40,49 +41,6 @@ std::optional<double> converted_power(const Scene& scene, LuminaireIndex index, 
     return before / of_one;
 }
 
-std::optional<Edit> spectrum_controls(LuminaireIndex index, const Luminaire& luminaire, UiState& state) {
-    std::optional<Edit> edit;
-    int kind = 0;
-    if (std::holds_alternative<Blackbody>(luminaire.spectrum)) kind = 1;
-    if (std::holds_alternative<Rgb>(luminaire.spectrum)) kind = 2;
-    if (std::holds_alternative<SpectrumFile>(luminaire.spectrum)) kind = 3;
-    row_label(state, "Spectrum");
-    if (segmented(state, "spectrum_kind",
-                  {{"Flat", "Equal energy at every wavelength (CIE illuminant E)"},
-                   {"Kelvin", "A glowing body: Planck's law"},
-                   {"Colour", "Linear sRGB"},
-                   {"File", "Measured values from a .csv file"}},
-                  kind)) {
-        if (kind == 0) edit = SetEmissionSpectrum{index, Flat{}};
-        if (kind == 1) edit = SetEmissionSpectrum{index, Blackbody{3000}};
-        if (kind == 2) edit = SetEmissionSpectrum{index, linear_rgb(luminaire.spectrum)};
-        if (kind == 3)
-            state.file_request = FileRequest{FilePurpose::emission_spectrum, {}, index, state.spectrum_column};
-    }
-    if (const auto* body = std::get_if<Blackbody>(&luminaire.spectrum)) {
-        row_label(state, "Temperature",
-                  "Candle 1900 K, incandescent 2700 K, halogen 3200 K, noon sun 5500 K, sky 10000 K.");
-        double kelvin = body->kelvin;
-        if (log_slider("##kelvin", kelvin, 1000, 25000, "%.0f K"))
-            edit = SetEmissionSpectrum{index, Blackbody{std::clamp(kelvin, 1000.0, 25000.0)}};
-        state.layout_log.widget("kelvin");
-    } else if (const auto* rgb = std::get_if<Rgb>(&luminaire.spectrum)) {
-        row_label(state, "Colour", "Only its proportions count in lm and W.");
-        auto shown = encoded(*rgb / std::max({rgb->r, rgb->g, rgb->b, 1e-12}));
-        if (ImGui::ColorEdit3("##colour", &shown.x,
-                              ImGuiColorEditFlags_DisplayHex | ImGuiColorEditFlags_PickerHueWheel)) {
-            const double size = std::max({rgb->r, rgb->g, rgb->b, 1e-12});
-            const Rgb colour = decoded(shown) * size;
-            if (std::max({colour.r, colour.g, colour.b}) > 0) edit = SetEmissionSpectrum{index, colour};
-        }
-    } else if (const auto* file = std::get_if<SpectrumFile>(&luminaire.spectrum)) {
-        if (file_row(state, *file))
-            state.file_request = FileRequest{FilePurpose::emission_spectrum, {}, index, state.spectrum_column};
-    }
-    spectrum_plot(state, "##curve", curve_of(luminaire.spectrum), 0);
-    return edit;
-}
-
 std::optional<Edit> luminaire_controls(const Scene& scene, LuminaireIndex index, UiState& state) {
     std::optional<Edit> edit;
     const auto& luminaire = scene.luminaires[at(index)];
@@ -113,7 +71,7 @@ std::optional<Edit> luminaire_controls(const Scene& scene, LuminaireIndex index,
                     edit = SetPower{index, unit, *same_light};
         ImGui::EndCombo();
     }
-    if (auto changed = spectrum_controls(index, luminaire, state)) edit = changed;
+    if (auto changed = emission_editor(state, scene, index)) edit = SetEmissionSpectrum{index, std::move(*changed)};
 
     row_label(state, "Emits from");
     int side = static_cast<int>(luminaire.side);
@@ -251,6 +209,7 @@ std::optional<Edit> luminaires_panel(const Document& document, const Snapshot&, 
         return {};
     }
     if (state.luminaire && at(*state.luminaire) >= scene.luminaires.size()) state.luminaire.reset();
+    if (state.luminaire) state.spectrum_target = *state.luminaire;
     std::optional<Edit> edit;
     if (scene.luminaires.size() > 1) {
         edit = master_dimmer(scene, state);

@@ -64,12 +64,14 @@ void splitter(const char* name, const Area& line, Across across, float& value, f
 
 void toolbar(UiState& state, const Snapshot& snapshot) {
     const float scale = state.scale;
-    ImGui::SetNextItemWidth(300 * scale);
+    ImGui::SetNextItemWidth(std::min(430 * scale, 0.55f * ImGui::GetContentRegionAvail().x));
     int view = static_cast<int>(state.view);
     if (segmented(state, "view",
                   {{"Shaded", "The light as the eye at the camera sees it (1)"},
                    {"Elements", "The triangles that the light is computed on (2)"},
-                   {"Unshot", "Light that has not been sent on yet (3)"}},
+                   {"Unshot", "Light that has not been sent on yet (3)"},
+                   {"Luminance", "cd/m² in false colours, with contours (4)"},
+                   {"Illuminance", "lx in false colours, with isolux lines (5)"}},
                   view))
         state.view = static_cast<ViewMode>(view);
     ImGui::SameLine(0, 18 * scale);
@@ -108,6 +110,7 @@ std::vector<Edit> main_layout(const Document& document, const Snapshot& snapshot
                               const std::function<std::optional<Edit>()>& draw_viewport) {
     const float scale = state.scale;
     auto& layout = state.layout;
+    state.spectrum_target = {}; // a panel that is drawn says what it has open
     const auto* screen = ImGui::GetMainViewport();
     const float line = std::max(1.0f, std::floor(scale));
     const float status_height = std::floor(ImGui::GetTextLineHeight() + 10 * scale);
@@ -129,6 +132,10 @@ std::vector<Edit> main_layout(const Document& document, const Snapshot& snapshot
             const bool luminaires_first = std::exchange(state.show_luminaires, false);
             tab(document, snapshot, state, "Materials", false, edits, materials_panel);
             tab(document, snapshot, state, "Luminaires", luminaires_first, edits, luminaires_panel);
+            tab(document, snapshot, state, "Colour", false, edits, [](const Document& d, const Snapshot&, UiState& s) {
+                colour_panel(d, s);
+                return std::optional<Edit>();
+            });
             ImGui::EndTabBar();
         }
         ImGui::End();

@@ -6,6 +6,7 @@
 #include <imgui_stdlib.h>
 
 #include "ui/panels.h"
+#include "ui/spectrum_editor.h"
 #include "ui/swatch.h"
 #include "ui/widgets.h"
 
@@ -106,22 +107,10 @@ std::optional<Edit> rgb_controls(MaterialIndex index, const Rgb& rgb, UiState& s
     return edit;
 }
 
-std::optional<Edit> reflectance_controls(MaterialIndex index, const Material& material, UiState& state) {
+std::optional<Edit> reflectance_controls(const Scene& scene, MaterialIndex index, UiState& state) {
     std::optional<Edit> edit;
-    int kind = static_cast<int>(material.reflectance.index());
-    row_label(state, "Reflectance");
-    if (segmented(state, "reflectance_kind",
-                  {{"Grey", "One number at every wavelength"},
-                   {"Colour", "Linear sRGB, made a smooth spectrum between 0 and 1"},
-                   {"Spectrum", "Measured values from a .csv file"}},
-                  kind)) {
-        const auto rgb = glm::clamp(linear_rgb(material.reflectance), 0.0, 1.0);
-        if (kind == 0)
-            edit = SetReflectance{index, Reflectance(std::clamp(luminous_reflectance(material.reflectance), 0.0, 1.0))};
-        if (kind == 1) edit = SetReflectance{index, Reflectance(rgb)};
-        if (kind == 2)
-            state.file_request = FileRequest{FilePurpose::reflectance_spectrum, index, {}, state.spectrum_column};
-    }
+    const Material& material = scene.materials[at(index)];
+    if (auto changed = reflectance_editor(state, scene, index)) edit = SetReflectance{index, std::move(*changed)};
     if (const auto* number = std::get_if<double>(&material.reflectance)) {
         row_label(state, "Share reflected", "0 is black, 1 reflects everything. Ctrl-click to type.");
         auto value = static_cast<float>(*number);
@@ -130,10 +119,8 @@ std::optional<Edit> reflectance_controls(MaterialIndex index, const Material& ma
         state.layout_log.widget("reflectance:number");
     } else if (const auto* rgb = std::get_if<Rgb>(&material.reflectance)) {
         if (auto changed = rgb_controls(index, *rgb, state)) edit = changed;
-    } else if (const auto* file = std::get_if<SpectrumFile>(&material.reflectance)) {
-        if (file_row(state, *file))
-            state.file_request = FileRequest{FilePurpose::reflectance_spectrum, index, {}, state.spectrum_column};
     }
+    if (auto drawn = reflectance_plot(state, material.reflectance)) edit = SetReflectance{index, std::move(*drawn)};
     return edit;
 }
 
@@ -157,10 +144,9 @@ std::optional<Edit> material_controls(const Scene& scene, MaterialIndex index, U
     }
 
     ImGui::BeginDisabled(material.texture.has_value());
-    if (auto changed = reflectance_controls(index, material, state)) edit = changed;
+    if (auto changed = reflectance_controls(scene, index, state)) edit = changed;
     ImGui::EndDisabled();
     if (material.texture) tooltip(state, "The mean of the texture. Take the texture off to paint.");
-    spectrum_plot(state, "##curve", curve_of(material.reflectance), 1);
 
     row_label(
         state, "Texture",
@@ -196,6 +182,7 @@ std::optional<Edit> materials_panel(const Document& document, const Snapshot&, U
         return {};
     }
     if (state.material && at(*state.material) >= scene.materials.size()) state.material.reset();
+    if (state.material) state.spectrum_target = *state.material;
     const auto list = [&] {
         ImGui::SetNextItemWidth(-1);
         ImGui::InputTextWithHint("##search", "Search materials", &state.material_filter);

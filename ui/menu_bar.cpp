@@ -53,6 +53,7 @@ double menu_bar(const Document& document, const Preferences& preferences, UiStat
         item(state, Command::save);
         item(state, Command::save_as);
         item(state, Command::screenshot);
+        item(state, Command::screenshot_as);
         ImGui::Separator();
         item(state, Command::quit);
         ImGui::EndMenu();
@@ -70,6 +71,10 @@ double menu_bar(const Document& document, const Preferences& preferences, UiStat
         item(state, Command::view_shaded, state.view == ViewMode::shaded);
         item(state, Command::view_elements, state.view == ViewMode::elements);
         item(state, Command::view_unshot, state.view == ViewMode::unshot);
+        item(state, Command::view_luminance, state.view == ViewMode::luminance);
+        item(state, Command::view_illuminance, state.view == ViewMode::illuminance);
+        item(state, Command::view_side_by_side, state.view == ViewMode::side_by_side);
+        item(state, Command::view_difference, state.view == ViewMode::difference);
         ImGui::Separator();
         item(state, Command::frame_selection);
         item(state, Command::home);

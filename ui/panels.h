@@ -17,6 +17,7 @@ std::optional<Edit> solver_panel(const Document& document, const Snapshot& snaps
 // These only show.
 void convergence_plot(const Snapshot& snapshot, double target_error, UiState& state, float width, float height);
 void probe_readout(const Document& document, UiState& state);
+void colour_panel(const Document& document, UiState& state);
 void status_line(const Document& document, const Snapshot& snapshot, UiState& state);
 
 } // namespace lueur

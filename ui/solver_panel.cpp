@@ -9,6 +9,36 @@
 namespace lueur {
 namespace {
 
+constexpr std::array<WavelengthsSpec, 11> offered_wavelengths{{{WavelengthRule::automatic, 0},
+                                                               {WavelengthRule::folded, 4},
+                                                               {WavelengthRule::folded, 8},
+                                                               {WavelengthRule::folded, 12},
+                                                               {WavelengthRule::uniform, 16},
+                                                               {WavelengthRule::uniform, 31},
+                                                               {WavelengthRule::uniform, 81},
+                                                               {WavelengthRule::meyer, 4},
+                                                               {WavelengthRule::meyer, 10},
+                                                               {WavelengthRule::gauss, 10},
+                                                               {WavelengthRule::rgb, 3}}};
+
+std::string wavelengths_name(const WavelengthsSpec& spec) {
+    switch (spec.rule) {
+    case WavelengthRule::automatic:
+        return "Automatic";
+    case WavelengthRule::folded:
+        return fmt::format("{} fitted, lamp folded in", spec.count);
+    case WavelengthRule::uniform:
+        return fmt::format("{} evenly, {} nm", spec.count, spec.count > 31 ? "380-780" : "400-700");
+    case WavelengthRule::meyer:
+        return fmt::format("{} after Meyer", spec.count);
+    case WavelengthRule::gauss:
+        return fmt::format("{} Gauss points", spec.count);
+    case WavelengthRule::rgb:
+        return "RGB";
+    }
+    return {};
+}
+
 void figure(const UiState& state, const char* name, const std::string& value, const char* tip) {
     ImGui::TableNextColumn();
     ImGui::TextColored(colours::dim, "%s", name);
@@ -80,24 +110,32 @@ std::optional<Edit> solver_panel(const Document& document, const Snapshot& snaps
     ImGui::PopStyleVar();
 
     row_label(state, "Wavelengths",
-              "Channels that the light is computed in. RGB is fast and wrong for lamps with lines.");
-    const bool rgb = solve.wavelengths.rule == WavelengthRule::rgb;
-    const auto text = rgb ? std::string("RGB") : fmt::format("{} from 400 to 700 nm", solve.wavelengths.count);
-    if (ImGui::BeginCombo("##wavelengths", text.c_str())) {
-        const auto choose = [&](const char* name, const WavelengthsSpec& spec) {
-            if (ImGui::Selectable(name, solve.wavelengths == spec)) {
+              "Channels that the light is computed in. Automatic takes the fewest that keep the predicted colour "
+              "difference below the limit. RGB is fast and wrong for lamps with lines.");
+    if (ImGui::BeginCombo("##wavelengths", wavelengths_name(solve.wavelengths).c_str())) {
+        for (const WavelengthsSpec& spec : offered_wavelengths)
+            if (ImGui::Selectable(wavelengths_name(spec).c_str(), solve.wavelengths == spec)) {
                 solve.wavelengths = spec;
                 any = true;
             }
-        };
-        choose("RGB", {WavelengthRule::rgb, 3});
-        choose("4 from 400 to 700 nm", {WavelengthRule::uniform, 4});
-        choose("8", {WavelengthRule::uniform, 8});
-        choose("16, each 20 nm", {WavelengthRule::uniform, 16});
-        choose("31, each 10 nm", {WavelengthRule::uniform, 31});
         ImGui::EndCombo();
     }
     state.layout_log.widget("wavelengths");
+    tooltip(state, snapshot.status.wavelengths.c_str());
+    if (solve.wavelengths.rule == WavelengthRule::automatic) {
+        row_label(state, "Colour error", "Worst colour difference (CIEDE2000) that the wavelengths may be predicted.");
+        if (log_slider("##colour_error", solve.colour_error, 0.05, 10, "%.2g dE") && !(solve.colour_error > 0))
+            solve.colour_error = stored.colour_error;
+        dragging = dragging || ImGui::IsItemActive();
+        any = any || ImGui::IsItemDeactivatedAfterEdit();
+    }
+    if (solve.wavelengths.rule != WavelengthRule::rgb) {
+        row_label(state, "Compare RGB",
+                  "Solve the lecture's trichromatic approach beside, on the same rays, and see how far apart they are: "
+                  "View, Side by side and Colour difference.");
+        any = ImGui::Checkbox("##compare", &solve.compare_trichromatic) || any;
+        state.layout_log.widget("compare_trichromatic");
+    }
 
     // Applied when the hand lets go: each value on the way would cost rays.
     const auto released = [&] {

@@ -1,11 +1,10 @@
 #include "ui/swatch.h"
 
 #include <algorithm>
-#include <utility>
+#include <optional>
 
 #include "core/spectrum/colour.h"
 #include "core/spectrum/observer.h"
-#include "core/spectrum/overload.h"
 #include "core/spectrum/rgb_spectrum.h"
 
 namespace lueur {
@@ -28,48 +27,32 @@ Rgb srgb_from_xyz(const Xyz& xyz) {
 } // namespace
 
 Rgb linear_rgb(const Reflectance& reflectance) {
-    return std::visit(Overload{[](double value) { return Rgb(value); }, [](const Rgb& rgb) { return rgb; },
-                               [](const SpectrumFile& file) { return srgb_from_xyz(xyz_under_d65(file.spectrum)); }},
-                      reflectance);
+    if (const double* grey = std::get_if<double>(&reflectance)) return Rgb(*grey);
+    if (const Rgb* rgb = std::get_if<Rgb>(&reflectance)) return *rgb;
+    return srgb_from_xyz(xyz_under_d65(spectrum_of(reflectance)));
 }
 
 double luminous_reflectance(const Reflectance& reflectance) {
     static const glm::dmat3 to_xyz = xyz_from_rgb(srgb);
-    return std::visit(Overload{[](double value) { return value; }, [](const Rgb& rgb) { return (to_xyz * rgb).y; },
-                               [](const SpectrumFile& file) { return xyz_under_d65(file.spectrum).y; }},
-                      reflectance);
+    if (const double* grey = std::get_if<double>(&reflectance)) return *grey;
+    if (const Rgb* rgb = std::get_if<Rgb>(&reflectance)) return (to_xyz * *rgb).y;
+    return xyz_under_d65(spectrum_of(reflectance)).y;
 }
 
-Rgb linear_rgb(const EmissionSpectrum& spectrum) {
-    const auto of_xyz = [](const Xyz& xyz) { return srgb_from_xyz(xyz); };
-    Rgb rgb =
-        std::visit(Overload{[&](const Flat&) { return of_xyz(xyz_from_spectrum(curve_of(Flat{}))); },
-                            [](const Rgb& colour) { return colour; },
-                            [&](const SpectrumFile& file) { return of_xyz(xyz_from_spectrum(file.spectrum)); },
-                            [&](const Blackbody& body) { return of_xyz(xyz_from_spectrum(blackbody(body.kelvin))); }},
-                   spectrum);
-    rgb = glm::max(rgb, 0.0);
+Rgb linear_rgb(const EmissionSpectrum& emission) {
+    const std::optional<Spectrum> spectrum = spectrum_of(emission);
+    const Rgb rgb = glm::max(spectrum ? srgb_from_xyz(xyz_from_spectrum(*spectrum)) : std::get<Rgb>(emission), 0.0);
     const double largest = std::max({rgb.r, rgb.g, rgb.b});
     return largest > 0 ? rgb / largest : Rgb(0);
 }
 
 Spectrum curve_of(const Reflectance& reflectance) {
-    return std::visit(Overload{[](double value) {
-                                   return Spectrum{{380, 780}, {value, value}};
-                               },
-                               [](const Rgb& rgb) { return reflectance_from_rgb(glm::clamp(rgb, 0.0, 1.0)); },
-                               [](const SpectrumFile& file) { return file.spectrum; }},
-                      reflectance);
+    return spectrum_of(reflectance);
 }
 
-Spectrum curve_of(const EmissionSpectrum& spectrum) {
-    return std::visit(Overload{[](const Flat&) {
-                                   return Spectrum{{380, 780}, {1, 1}};
-                               },
-                               [](const Rgb&) { return Spectrum{}; },
-                               [](const SpectrumFile& file) { return file.spectrum; },
-                               [](const Blackbody& body) { return blackbody(body.kelvin); }},
-                      spectrum);
+Spectrum curve_of(const EmissionSpectrum& emission) {
+    if (const Rgb* rgb = std::get_if<Rgb>(&emission)) return light_from_rgb(*rgb);
+    return *spectrum_of(emission);
 }
 
 glm::vec3 encoded(const Rgb& linear) {

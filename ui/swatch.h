@@ -12,7 +12,7 @@ double luminous_reflectance(const Reflectance& reflectance); // under D65
 // Linear sRGB of the light's chromaticity, the largest component 1, negatives cut.
 Rgb linear_rgb(const EmissionSpectrum& spectrum);
 
-// What is drawn as a curve; an Rgb emission has none (empty).
+// What is drawn as a curve; of an Rgb emission the spectrum that it is taken for.
 Spectrum curve_of(const Reflectance& reflectance);
 Spectrum curve_of(const EmissionSpectrum& spectrum);
 

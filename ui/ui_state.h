@@ -14,15 +14,19 @@
 #include "ui/commands.h"
 #include "ui/exposure.h"
 #include "ui/layout_log.h"
+#include "ui/light_readings.h"
 #include "ui/messages.h"
+#include "ui/spectrum_state.h"
 #include "ui/theme.h"
 
 namespace lueur {
 
-enum class ViewMode { shaded, elements, unshot };
+enum class ViewMode { shaded, elements, unshot, luminance, illuminance, side_by_side, difference };
+
+enum class ChromaticityScale { xy, uv }; // CIE 1931 x y, CIE 1976 u' v'
 
 // Which file the browser is open for.
-enum class FilePurpose { open_scene, save_scene, reflectance_spectrum, emission_spectrum, texture };
+enum class FilePurpose { open_scene, save_scene, save_picture, reflectance_spectrum, emission_spectrum, texture };
 struct FileRequest {
     FilePurpose purpose = FilePurpose::open_scene;
     MaterialIndex material{};
@@ -52,14 +56,29 @@ struct UiState {
     float scale = 1; // pixels for each unscaled pixel
 
     std::string material_filter, luminaire_filter;
-    std::string spectrum_column;
+    SpectrumShelf spectra;
+    CurveDrag curve;                     // of a point of a drawn spectrum
+    SpectrumTarget spectrum_target;      // of the panel in front
     std::map<std::size_t, double> muted; // luminaire -> dimmer before it was muted
     float master = 1;                    // of the drag of the master dimmer that is going on
     std::optional<Scene> preview; // shown to the solver while the master dimmer is dragged; becomes an edit at its end
     std::optional<SolveSettings> solve_draft; // while a slider that costs rays is being dragged
 
-    Exposure exposure;    // MAXDISPLAY in use
-    float unshot_top = 0; // top of the false-colour scale, lm m^-2
+    Exposure exposure; // MAXDISPLAY in use
+    struct {
+        FalseColourSettings luminance, illuminance;
+    } scales_in_use;            // of the false colours, automatic ranges included
+    bool shares_wanted = false; // by a panel, in this frame
+    DisplayShares shares;       // clipped and out of gamut, of the last still picture
+    int picture_bits = 8;       // a channel of saved pictures, or 16
+    bool each_gamma = false;    // a slider for each channel
+    bool own_primaries = false; // numbers in the place of a preset
+    bool calibrating = false;   // the picture to set gamma by is unfolded
+    float unshot_top = 0;       // top of the false-colour scale, lm m^-2
+
+    ChromaticityScale chromaticity_scale = ChromaticityScale::uv;
+    bool chromaticity_whites = false; // only the part of the diagram where lamps lie
+    LightReadings readings;           // of the colour panel
 
     bool paused = false;
     bool help_open = false, log_open = false, about_open = false;

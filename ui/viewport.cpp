@@ -36,26 +36,41 @@ glm::dvec3 flight(double speed, double dt) {
     return way * (speed * (io.KeyShift ? 4 : 1) * std::min(dt, 0.1));
 }
 
-void unshot_legend(const UiState& state, const ViewportState& view) {
-    const float scale = state.scale, width = 200 * scale, height = 10 * scale;
-    auto* draw = ImGui::GetWindowDrawList();
-    const auto x = static_cast<float>(view.x) + 16 * scale, y = static_cast<float>(view.y + view.height) - 42 * scale;
-    draw->AddRectFilled({x - 10 * scale, y - 24 * scale}, {x + width + 26 * scale, y + height + 22 * scale},
-                        IM_COL32(20, 20, 20, 215), 5 * scale);
-    const float size = state.fonts.small->FontSize;
-    draw->AddText(state.fonts.small, size, {x, y - 19 * scale}, packed(colours::text), "Unshot light, lm/m²");
-    for (int i = 0; i < 100; ++i) {
-        const auto c = false_colour((static_cast<float>(i) + 0.5f) / 100);
-        draw->AddRectFilled({x + width * static_cast<float>(i) / 100, y},
-                            {x + width * static_cast<float>(i + 1) / 100, y + height}, packed({c.r, c.g, c.b, 1}));
+void legend(const UiState& state, const ViewportState& view, const DisplaySettings& display) {
+    const float x = static_cast<float>(view.x) + 12 * state.scale,
+                y = static_cast<float>(view.y + view.height) - 12 * state.scale;
+    switch (state.view) {
+    case ViewMode::shaded:
+    case ViewMode::elements:
+        return;
+    case ViewMode::side_by_side: {
+        const float middle = static_cast<float>(view.x + view.width / 2), top = static_cast<float>(view.y);
+        auto* list = ImGui::GetWindowDrawList();
+        list->AddLine({middle, top}, {middle, top + static_cast<float>(view.height)}, packed(colours::line),
+                      std::max(1.0f, state.scale));
+        const auto name = [&](const char* text, float left) {
+            const auto size = ImGui::CalcTextSize(text);
+            const float pad = 6 * state.scale;
+            const ImVec2 from{left, y - size.y - 2 * pad};
+            list->AddRectFilled(from, {left + size.x + 2 * pad, y}, packed(colours::panel), 4 * state.scale);
+            list->AddText({left + pad, from.y + pad}, packed(colours::text), text);
+        };
+        name("Spectral", x);
+        name("RGB (trichromatic)", middle + 12 * state.scale);
+        return;
     }
-    const int top = static_cast<int>(std::lround(std::log10(std::max(state.unshot_top, 1e-6f))));
-    for (int i = 0; i <= static_cast<int>(false_colour_decades); ++i) {
-        const auto text = fmt::format("{:g}", std::pow(10.0, top - static_cast<int>(false_colour_decades) + i));
-        const float at_x = x + width * static_cast<float>(i) / false_colour_decades;
-        const float half = 0.5f * state.fonts.small->CalcTextSizeA(size, 1e6f, 0, text.c_str()).x;
-        draw->AddText(state.fonts.small, size, {i == 0 ? x : at_x - half, y + height + 3 * scale}, packed(colours::dim),
-                      text.c_str());
+    case ViewMode::difference:
+        draw_legend(state, x, y, "Colour difference spectral - RGB, CIEDE2000", difference_scale());
+        return;
+    case ViewMode::unshot:
+        draw_legend(state, x, y, "Unshot light, lm/m²", unshot_scale(state.unshot_top));
+        return;
+    case ViewMode::luminance:
+        draw_legend(state, x, y, "Luminance, cd/m²", display.luminance_scale);
+        return;
+    case ViewMode::illuminance:
+        draw_legend(state, x, y, "Illuminance, lx", display.illuminance_scale);
+        return;
     }
 }
 
@@ -192,6 +207,8 @@ std::optional<Edit> viewport(const Document& document, const Snapshot& snapshot,
     params.height = view.height;
     params.camera = camera;
     params.display = display_in_use(scene.display, state.exposure);
+    if (known && (state.view == ViewMode::luminance || state.view == ViewMode::illuminance))
+        fit_scales(view.scales, snapshot, params.display);
     params.view = state.view;
     params.selected = state.selected;
     params.unshot_top = state.unshot_top;
@@ -205,7 +222,10 @@ std::optional<Edit> viewport(const Document& document, const Snapshot& snapshot,
     view.draw_seconds = renderer.draw_seconds();
 
     if (!known || !snapshot.mesh) busy_note(state, view, snapshot);
-    if (state.view == ViewMode::unshot) unshot_legend(state, view);
+    legend(state, view, params.display);
+    state.scales_in_use = {params.display.luminance_scale, params.display.illuminance_scale};
+    if (known && view.refined && state.shares_wanted) state.shares = renderer.shares(params.display);
+    state.shares_wanted = false; // who shows them says so anew in each frame
     if (state.layout.probe_at_cursor && state.hovered) {
         ImGui::BeginTooltip();
         probe_readout(document, state);

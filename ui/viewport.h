@@ -6,6 +6,7 @@
 
 #include "editor/document.h"
 #include "editor/snapshot.h"
+#include "ui/false_colour.h"
 #include "ui/renderer.h"
 #include "ui/ui_state.h"
 
@@ -25,6 +26,7 @@ struct ViewportState {
     double draw_seconds = 0;
     bool drew_mesh = false;
     std::shared_ptr<const Field> unshot_field; // whose largest unshot value has been looked for
+    FittedScales scales;                       // of the false colours
     std::optional<Camera> home;                // the scene's own camera
 };
 

@@ -5,11 +5,6 @@
 
 #include <fmt/format.h>
 #include <imgui_internal.h>
-#include <imgui_stdlib.h>
-
-#include "core/spectrum/colour.h"
-#include "core/spectrum/observer.h"
-#include "ui/swatch.h"
 
 namespace lueur {
 
@@ -98,74 +93,6 @@ void swatch(const UiState& state, const char* id, const glm::vec3& c, float size
     auto* draw = ImGui::GetWindowDrawList();
     draw->AddRectFilled(corner, {corner.x + edge, corner.y + edge}, packed({c.r, c.g, c.b, 1}), 3 * state.scale);
     draw->AddRect(corner, {corner.x + edge, corner.y + edge}, IM_COL32(255, 255, 255, 46), 3 * state.scale);
-}
-
-void spectrum_plot(const UiState& state, const char* id, const Spectrum& spectrum, double top) {
-    const float height = 66 * state.scale, strip = 5 * state.scale, width = ImGui::GetContentRegionAvail().x;
-    const auto corner = ImGui::GetCursorScreenPos();
-    ImGui::InvisibleButton(id, {std::max(width, 1.0f), height + strip + ImGui::GetTextLineHeight()});
-    auto* draw = ImGui::GetWindowDrawList();
-    const ImVec2 low{corner.x, corner.y}, high{corner.x + width, corner.y + height};
-    draw->AddRectFilled(low, high, packed(colours::backdrop), 3 * state.scale);
-    constexpr double first = 380, last = 780;
-    const auto x_of = [&](double nm) { return low.x + static_cast<float>((nm - first) / (last - first)) * width; };
-    if (top <= 0) {
-        top = 1e-12;
-        for (std::size_t i = 0; i < spectrum.nm.size(); ++i)
-            if (spectrum.nm[i] >= first && spectrum.nm[i] <= last) top = std::max(top, 1.06 * spectrum.value[i]);
-    }
-    for (double nm = 400; nm < last; nm += 100) {
-        draw->AddLine({x_of(nm), low.y}, {x_of(nm), high.y}, packed(colours::line, 0.7f));
-        const auto text = fmt::format("{:.0f}{}", nm, nm == 700 ? " nm" : "");
-        draw->AddText(state.fonts.small, state.fonts.small->FontSize,
-                      {x_of(nm) - 10 * state.scale, high.y + strip + 1 * state.scale}, packed(colours::dim),
-                      text.c_str());
-    }
-    const auto outside = top == 1 ? Outside::constant : Outside::zero; // a reflectance is drawn to 1
-    if (!spectrum.nm.empty()) {
-        // One column of pixels shows the largest value within it, so that a narrow line is never lost.
-        ImVec2 before{};
-        for (float x = low.x; x <= high.x; x += 1) {
-            const double from = first + (last - first) * (x - low.x) / width, to = from + (last - first) / width;
-            double value = value_at(spectrum, from, outside);
-            auto sample = std::ranges::lower_bound(spectrum.nm, from);
-            for (; sample != spectrum.nm.end() && *sample < to; ++sample)
-                value = std::max(value, spectrum.value[static_cast<std::size_t>(sample - spectrum.nm.begin())]);
-            const float share = static_cast<float>(std::clamp(value / top, 0.0, 1.0));
-            const ImVec2 now{x, high.y - 1 - share * (height - 4 * state.scale)};
-            if (x > low.x) draw->AddLine(before, now, packed(colours::accent), 1.5f * state.scale);
-            before = now;
-        }
-    } else {
-        const char* text = "no curve: a mixture of the display's primaries";
-        draw->AddText(state.fonts.small, state.fonts.small->FontSize,
-                      {low.x + 8 * state.scale, low.y + 22 * state.scale}, packed(colours::dim), text);
-    }
-    for (float x = low.x; x < high.x; x += 2) {
-        const double nm = first + (last - first) * (x - low.x) / width;
-        Rgb rgb = rgb_from_xyz(srgb) * observer_xyz(nm);
-        rgb = glm::max(rgb, 0.0) / 1.8;
-        const auto c = encoded(rgb);
-        draw->AddRectFilled({x, high.y}, {std::min(x + 2, high.x), high.y + strip}, packed({c.r, c.g, c.b, 1}));
-    }
-    if (ImGui::IsItemHovered() && !spectrum.nm.empty()) {
-        const double nm = first + (last - first) * (ImGui::GetIO().MousePos.x - low.x) / width;
-        ImGui::SetTooltip("%.0f nm: %s", nm, short_number(value_at(spectrum, nm, outside)).c_str());
-    }
-}
-
-bool file_row(UiState& state, const SpectrumFile& file) {
-    row_label(state, "From");
-    ImGui::PushStyleVar(ImGuiStyleVar_ButtonTextAlign, {0, 0.5f});
-    const bool pressed = ImGui::Button((file.path + "##file").c_str(), {-1, 0});
-    ImGui::PopStyleVar();
-    const auto whole =
-        file.path + (file.column.empty() ? "" : ", column " + file.column) + "\nPress to choose another file.";
-    tooltip(state, whole.c_str());
-    state.layout_log.widget("spectrum_file");
-    row_label(state, "Column", "Name of the column to read from the next file you choose; empty: the first.");
-    ImGui::InputTextWithHint("##column", file.column.empty() ? "first" : file.column.c_str(), &state.spectrum_column);
-    return pressed;
 }
 
 std::string whole_number(std::uint64_t value) {

@@ -8,7 +8,6 @@
 #include <glm/glm.hpp>
 #include <imgui.h>
 
-#include "core/spectrum/spectrum.h"
 #include "ui/ui_state.h"
 
 namespace lueur {
@@ -30,13 +29,6 @@ bool segmented(UiState& state, const char* id, std::initializer_list<Choice> cho
 bool log_slider(const char* id, double& value, double low, double high, const char* format);
 
 void swatch(const UiState& state, const char* id, const glm::vec3& encoded_colour, float size = 0);
-
-// A curve over 380..780 nm above a strip of the colours of the spectrum. `top`: value at the upper edge; 0: the curve's
-// own largest.
-void spectrum_plot(const UiState& state, const char* id, const Spectrum& spectrum, double top);
-
-// Where a spectrum came from, as a button that asks for another, and the column to read from that. True when pressed.
-bool file_row(UiState& state, const SpectrumFile& file);
 
 std::string short_number(double value); // 3 significant figures, thousands with a thin space: "1 240", "0.0317"
 

@@ -9,6 +9,7 @@
 #include <tbb/task_arena.h>
 
 #include "core/scene/scene_file.h"
+#include "editor/asset_path.h"
 #include "editor/commands/interrupt.h"
 #include "editor/commands/output_file.h"
 #include "editor/commands/solve_report.h"
@@ -48,7 +49,7 @@ std::shared_ptr<Scene> BatchSession::load() {
         }
     std::shared_ptr<Scene> scene;
     timed("load", [&] {
-        auto loaded = load_scene(params_.scene);
+        auto loaded = load_scene(params_.scene, {.spectrum_library = asset_path("spectra")});
         if (!loaded) {
             for (const auto& line : loaded.error()) error(line);
             return;

@@ -9,98 +9,13 @@
 #include <fmt/format.h>
 
 #include "core/display/image_file.h"
+#include "editor/commands/display_options.h"
 #include "editor/commands/number_text.h"
+#include "editor/commands/option_text.h"
 
 namespace lueur {
 
 namespace {
-
-// Every value is read from its text here, so that a mistake gets one line that says what is allowed.
-using Read = std::function<void(const std::string&)>;
-
-[[noreturn]] void refuse(const std::string& option, const std::string& text, const std::string& allowed) {
-    throw CLI::ValidationError(option, fmt::format("'{}' cannot be used; {}", text, allowed));
-}
-
-// CLI11 indents what follows a line end, and does not wrap by itself.
-std::string wrapped(const std::string& text) {
-    constexpr std::size_t width = 84;
-    std::string lines;
-    std::size_t column = 0;
-    for (std::size_t at = 0; at < text.size();) {
-        const std::size_t end = std::min(text.find(' ', at), text.size());
-        if (column > 0 && column + 1 + end - at > width) {
-            lines += '\n';
-            column = 0;
-        } else if (column > 0) {
-            lines += ' ';
-            ++column;
-        }
-        lines += text.substr(at, end - at);
-        column += end - at;
-        at = end + 1;
-    }
-    return lines;
-}
-
-CLI::Option* add(CLI::App& app, const std::string& name, const std::string& type, const std::string& help,
-                 const Read& read) {
-    return app.add_option_function<std::string>(name, read, wrapped(help))->type_name(type);
-}
-
-struct Range {
-    double low, high;
-    bool above_low = false; // low itself is not allowed
-    bool contains(double value) const { return (above_low ? value > low : value >= low) && value <= high; }
-    std::string text() const {
-        if (above_low) return fmt::format("a number above {} and up to {} is allowed", low, high);
-        return fmt::format("a number from {} to {} is allowed", low, high);
-    }
-};
-
-template <typename Target>
-CLI::Option* add_number(CLI::App& app, const std::string& name, const std::string& type, const std::string& help,
-                        Range range, Target& target, double scale = 1) {
-    return add(app, name, type, help, [name, range, scale, &target](const std::string& text) {
-        const auto value = number_from_text(text);
-        if (!value || !range.contains(*value)) refuse(name, text, range.text());
-        target = *value * scale;
-    });
-}
-
-template <typename Target>
-CLI::Option* add_integer(CLI::App& app, const std::string& name, const std::string& help, long low, long high,
-                         Target& target) {
-    return add(app, name, "N", help, [name, low, high, &target](const std::string& text) {
-        const auto value = integer_from_text(text);
-        if (!value || *value < low || *value > high)
-            refuse(name, text, fmt::format("a whole number from {} to {} is allowed", low, high));
-        target = static_cast<std::uint32_t>(*value);
-    });
-}
-
-template <typename Value, std::size_t N>
-struct Choices {
-    std::array<std::pair<const char*, Value>, N> list;
-    std::string text() const {
-        std::string names;
-        for (const auto& [name, value] : list) names += (names.empty() ? "" : ", ") + std::string(name);
-        return names;
-    }
-};
-template <typename Value, std::size_t N, typename Target>
-CLI::Option* add_choice(CLI::App& app, const std::string& name, const std::string& help,
-                        const Choices<Value, N>& choices, Target& target) {
-    return add(app, name, "NAME", fmt::format("{}: {}", help, choices.text()),
-               [name, choices, &target](const std::string& text) {
-                   for (const auto& [known, value] : choices.list)
-                       if (text == known) {
-                           target = value;
-                           return;
-                       }
-                   refuse(name, text, "allowed: " + choices.text());
-               });
-}
 
 void add_path(CLI::App& app, const std::string& name, const std::string& help, std::filesystem::path& target,
               bool required) {
@@ -121,16 +36,21 @@ void add_solver(CLI::App& app, SolveOverrides& solve) {
         solve.solver);
 }
 
-void add_solve_options(CLI::App& app, SolveOverrides& solve, int& threads) {
+void add_wavelength_options(CLI::App& app, SolveOverrides& solve) {
     add(app, "--wavelengths", "RULE",
-        "Channels of the light: uniform:N (N wavelengths from 400 to 700 nm, 4 to 31) or rgb (three channels, for "
-        "comparison); "
-        "else as the scene says",
+        "Channels of the light: auto (as many as the scene needs), folded:N or N alone, uniform:N, meyer:N, gauss:N or "
+        "rgb (three channels, for comparison); else as the scene says",
         [&solve](const std::string& text) {
             const auto spec = parse_wavelengths(text);
             if (!spec) throw CLI::ValidationError("--wavelengths", spec.error());
             solve.wavelengths = *spec;
         });
+    add_number(app, "--colour-error", "DE2000",
+               "Worst colour difference that --wavelengths auto may be predicted; else as the scene says",
+               {0, 100, true}, solve.colour_error);
+}
+
+void add_ray_options(CLI::App& app, SolveOverrides& solve, int& threads) {
     add_number(app, "--error", "PERCENT",
                "Estimated relative RMS error of irradiance to reach, in percent; else as the scene says",
                {0, 100, true}, solve.target_error, 0.01);
@@ -138,6 +58,11 @@ void add_solve_options(CLI::App& app, SolveOverrides& solve, int& threads) {
                 threads);
     add_integer(app, "--seed", "Seed of the random sequences, 0 to 4294967295; the same seed gives the same rays", 0,
                 4294967295L, solve.seed);
+}
+
+void add_solve_options(CLI::App& app, SolveOverrides& solve, int& threads) {
+    add_wavelength_options(app, solve);
+    add_ray_options(app, solve, threads);
 }
 
 void add_scene(CLI::App& app, BatchParams& batch) {
@@ -168,34 +93,17 @@ void add_render_options(CLI::App& app, RenderCommand& render) {
         render.width = static_cast<int>(*width);
         render.height = static_cast<int>(*height);
     });
-    add_choice(app, "--quantity", "What a pixel shows, the last two in grey (colour)",
+    add_choice(app, "--bits", "Bits a channel of .png and .tif (8)", Choices<int, 2>{{{{"8", 8}, {"16", 16}}}},
+               render.bits);
+    app.add_flag("--spectral", render.spectral,
+                 "An .exr of spectral radiance at 41 wavelengths, 380 to 780 nm, in the layout of Fichet et al. 2021");
+    add_choice(app, "--quantity", "What a pixel shows, the last two in grey or with --false-colour (colour)",
                Choices<PictureQuantity, 3>{{{{"colour", PictureQuantity::colour},
                                              {"luminance", PictureQuantity::luminance},
                                              {"illuminance", PictureQuantity::illuminance}}}},
                render.quantity);
-    add(app, "--max-display", "X|auto",
-        "Luminance in cd/m2 (illuminance in lx with --quantity illuminance) shown as full white, or auto from the "
-        "picture; else as the scene says",
-        [&render](const std::string& text) {
-            if (text == "auto") {
-                render.max_display_auto = true;
-                return;
-            }
-            const auto value = number_from_text(text);
-            if (!value || *value <= 0) refuse("--max-display", text, "auto or a number above 0 is allowed");
-            render.max_display = *value;
-        });
-    std::array<std::pair<const char*, ClipRule>, 4> rules{{{"clamp", ClipRule::clamp},
-                                                           {"keep_chromaticity", ClipRule::keep_chromaticity},
-                                                           {"desaturate", ClipRule::desaturate},
-                                                           {"scale_all", ClipRule::scale_all}}};
-    add_choice(app, "--clip", "What becomes of colours that the display cannot show", Choices<ClipRule, 4>{rules},
-               render.clip);
-    add_choice(app, "--curve", "From light to pixel value",
-               Choices<TransferCurve, 2>{{{{"gamma", TransferCurve::gamma}, {"srgb", TransferCurve::srgb}}}},
-               render.curve);
-    add_number(app, "--gamma", "G", "Exponent of the gamma curve, 0.1 to 10; takes --curve gamma", {0.1, 10},
-               render.gamma);
+    add_display_options(app, render);
+    add_false_colour_options(app, render);
     add_solver(app, render.batch.solve);
     add_batch_options(app, render.batch);
 }
@@ -237,20 +145,31 @@ void add_measure_options(CLI::App& app, MeasureCommand& measure, MeasureWords& w
     add_batch_options(app, measure.batch);
 }
 
+void add_plan_options(CLI::App& app, PlanCommand& plan) {
+    add_scene(app, plan.batch);
+    add_wavelength_options(app, plan.batch.solve);
+    add_path(app, "--report", "Write the plan as JSON", plan.batch.report, false);
+}
+
+void add_chart_options(CLI::App& app, ChartCommand& chart) {
+    add_path(app, "SCENE",
+             "The scene whose solving is timed, with its own lights and paints; without it the Cornell box",
+             chart.batch.scene, false);
+    add_choice(app, "--of", "What is charted", Choices<ChartSubject, 1>{{{{"spectra", ChartSubject::spectra}}}},
+               chart.of)
+        ->required();
+    add_path(app, "-o,--output", "The chart: .svg", chart.output, true);
+    add_path(app, "--csv", "Its figures", chart.csv, false);
+    add_ray_options(app, chart.batch.solve, chart.batch.threads);
+    add_path(app, "--report", "Write what the solving cost as JSON", chart.batch.report, false);
+}
+
 // Options that would do nothing are mistakes, not noise.
 void check_render(const CLI::App& app, const RenderCommand& render) {
-    const auto given = [&](const char* name) { return app.count(name) > 0; };
     if (!is_display_image_name(render.output) && !is_radiance_image_name(render.output))
         refuse("--output", render.output.string(),
                "a name that ends in .png, .jpg, .jpeg, .tif, .tiff, .exr or .hdr is allowed");
-    if (is_radiance_image_name(render.output))
-        for (const char* name : {"--gamma", "--max-display", "--clip", "--curve"})
-            if (given(name))
-                throw CLI::ValidationError(
-                    name, fmt::format("does nothing in {}, which holds radiance; use it with .png, .jpg or .tif",
-                                      render.output.filename().string()));
-    if (render.gamma && render.curve == TransferCurve::srgb)
-        throw CLI::ValidationError("--gamma", "does nothing with --curve srgb; use it with --curve gamma or alone");
+    check_display_options(app, render);
 }
 
 void check_measure(const CLI::App& app, MeasureCommand& measure, const MeasureWords& words) {
@@ -271,18 +190,32 @@ void check_measure(const CLI::App& app, MeasureCommand& measure, const MeasureWo
     if (words.rays) measure.rays = static_cast<int>(*words.rays);
 }
 
+void check_chart(const ChartCommand& chart) {
+    if (chart.output.extension() != ".svg")
+        refuse("--output", chart.output.string(), "a name that ends in .svg is allowed");
+}
+
 constexpr const char* program_footer = R"(Examples:
   lueur                                        edit the measured Cornell box
   lueur room.toml                              edit another scene
   lueur render room.toml -o room.png           a picture, without a window
   lueur measure room.toml --points desk.csv -o desk_lux.csv
+  lueur plan room.toml                         how many wavelengths it needs
 Each command has its own --help.
 
 Exit status: 0 done; 1 could not be done; 2 a mistake on the command line or in a file; 130 stopped with Ctrl-C.)";
 
 constexpr const char* render_footer =
-    R"(Without --max-display, --clip, --curve and --gamma the picture is displayed as the scene file says.
+    R"(Without options of the display the picture is displayed as the scene file says.
 PNG, JPEG and TIFF carry the display settings and the state of the solution as metadata; so does EXR the latter.)";
+
+constexpr const char* plan_footer =
+    R"(Colour differences are CIEDE2000 of one to three reflections of the scene's paints under each of its lamps, against
+integration at 1 nm. They are predicted from the spectra alone: nothing is solved.)";
+
+constexpr const char* chart_footer =
+    R"(--of spectra: CIEDE2000 of the ColorChecker's patches, up to three bounces, for each rule of --wavelengths under smooth,
+mixed and spiky lights, against the number of channels and against the time that solving the scene with them takes.)";
 
 constexpr const char* measure_footer =
     R"(Points are in metres, in the axes of the scene file (a file whose up axis is z takes points with z up).
@@ -294,6 +227,7 @@ With --wavelengths rgb the columns irradiance_r, irradiance_g and irradiance_b a
 SolveSettings with_overrides(SolveSettings settings, const SolveOverrides& overrides) {
     if (overrides.solver) settings.solver = *overrides.solver;
     if (overrides.wavelengths) settings.wavelengths = *overrides.wavelengths;
+    if (overrides.colour_error) settings.colour_error = *overrides.colour_error;
     if (overrides.target_error) settings.target_error = *overrides.target_error;
     if (overrides.seed) settings.seed = *overrides.seed;
     return settings;
@@ -325,10 +259,21 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     add_measure_options(*measure_app, measure, words);
     measure_app->footer(measure_footer);
 
+    PlanCommand plan;
+    CLI::App* plan_app = app.add_subcommand("plan", "How many wavelengths a scene needs, and why");
+    add_plan_options(*plan_app, plan);
+    plan_app->footer(plan_footer);
+
+    ChartCommand chart;
+    CLI::App* chart_app = app.add_subcommand("chart", "Charts of accuracy against cost");
+    add_chart_options(*chart_app, chart);
+    chart_app->footer(chart_footer);
+
+    const auto commands = {render_app, measure_app, plan_app, chart_app};
     const std::string* command = nullptr;
     try {
         app.parse(argc, argv);
-        for (const CLI::App* sub : {render_app, measure_app}) {
+        for (const CLI::App* sub : commands) {
             if (!sub->parsed()) continue;
             command = &sub->get_name();
             for (const CLI::Option* option : app.get_options())
@@ -338,16 +283,19 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
         }
         if (render_app->parsed()) check_render(*render_app, render);
         if (measure_app->parsed()) check_measure(*measure_app, measure, words);
+        if (chart_app->parsed()) check_chart(chart);
     } catch (const CLI::ParseError& stop) {
         std::ostringstream out, errors;
         if (app.exit(stop, out, errors) == 0) return ExitNow{0, out.str()};
-        for (const CLI::App* sub : {render_app, measure_app})
+        for (const CLI::App* sub : commands)
             if (sub->parsed()) command = &sub->get_name();
         const std::string called = command ? "lueur " + *command : std::string("lueur");
         return ExitNow{2, fmt::format("{0}: {1} (see {0} --help)\n", called, stop.what())};
     }
     if (render_app->parsed()) return render;
     if (measure_app->parsed()) return measure;
+    if (plan_app->parsed()) return plan;
+    if (chart_app->parsed()) return chart;
     return editor;
 }
 

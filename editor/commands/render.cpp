@@ -3,15 +3,37 @@
 
 #include <fmt/format.h>
 
+#include "core/display/false_colour.h"
 #include "core/display/image_file.h"
+#include "core/display/legend.h"
+#include "core/scene/floor.h"
 #include "core/scene/scene_file.h"
+#include "core/transport/mesh.h"
+#include "core/view/spectral_picture.h"
 #include "editor/commands/batch_session.h"
 #include "editor/commands/output_file.h"
+#include "editor/false_colour_range.h"
 #include "editor/picture_metadata.h"
 
 namespace lueur {
 
 namespace {
+
+FalseColourSettings scale_of(const FalseColourOverrides& wanted, FalseColourSettings scale) {
+    if (wanted.automatic) scale.automatic = true;
+    if (wanted.range) {
+        scale.automatic = false;
+        scale.low = wanted.range->first;
+        scale.high = wanted.range->second;
+    }
+    if (wanted.logarithmic) scale.logarithmic = *wanted.logarithmic;
+    if (wanted.levels) {
+        scale.isolines = true;
+        scale.levels = *wanted.levels;
+    }
+    if (wanted.no_isolines) scale.isolines = false;
+    return scale;
+}
 
 DisplaySettings display_of(const RenderCommand& command, DisplaySettings display) {
     if (command.gamma) {
@@ -20,24 +42,63 @@ DisplaySettings display_of(const RenderCommand& command, DisplaySettings display
     }
     if (command.curve) display.curve = *command.curve;
     if (command.clip) display.clip = *command.clip;
+    if (command.tone_operator) display.tone_operator = *command.tone_operator;
+    if (command.adaptation) {
+        display.adaptation_luminance = *command.adaptation;
+        display.adaptation_automatic = false;
+    }
+    if (command.adaptation_auto) display.adaptation_automatic = true;
+    if (command.primaries) display.primaries = *command.primaries;
+    if (command.white_luminance) display.white_luminance = *command.white_luminance;
+    display.mark_clipped = display.mark_clipped || command.mark_clipped;
+    display.mark_out_of_gamut = display.mark_out_of_gamut || command.mark_out_of_gamut;
     // The scene's MAXDISPLAY is a luminance: it says nothing of lux.
-    if (command.max_display_auto || command.quantity == PictureQuantity::illuminance) display.max_display_auto = true;
+    if (command.quantity == PictureQuantity::illuminance) display.max_display_rule = MaxDisplayRule::percentile;
+    if (command.max_display_rule) display.max_display_rule = *command.max_display_rule;
+    if (command.percentile) display.percentile = *command.percentile;
     if (command.max_display) {
         display.max_display = *command.max_display;
-        display.max_display_auto = false;
+        display.max_display_rule = MaxDisplayRule::by_hand;
     }
+    if (command.quantity == PictureQuantity::illuminance)
+        display.illuminance_scale = scale_of(command.false_colour, display.illuminance_scale);
+    else
+        display.luminance_scale = scale_of(command.false_colour, display.luminance_scale);
     return display;
 }
 
-// The MAXDISPLAY that is really used, so that the picture can be made again.
-double used_max_display(const RadianceImage& image, const DisplaySettings& display) {
-    if (display.clip == ClipRule::scale_all)
-        if (const double largest = largest_component(image); largest > 0) return largest;
-    if (!display.max_display_auto) return display.max_display;
+// The numbers that are really used, so that the picture can be made again.
+DisplaySettings display_used(const RadianceImage& image, const Scene& scene, const Mesh& mesh, const Field& field) {
+    DisplaySettings display = scene.display;
     std::vector<float> luminances;
     luminances.reserve(image.xyz.size());
     for (const auto& xyz : image.xyz) luminances.push_back(xyz.y);
-    return auto_max_display(std::move(luminances));
+    double lecture = 0;
+    if (display.max_display_rule == MaxDisplayRule::lecture) {
+        const FloorFacts facts = floor_facts(scene);
+        lecture = lecture_max_display(facts.luminous_flux, facts.floor_area, facts.mean_reflectance, display.primaries);
+    }
+    display = resolved(display, luminances, lecture);
+    const auto areas = vertex_areas(mesh);
+    display.luminance_scale = fitted_to(display.luminance_scale, field, areas, PictureQuantity::luminance);
+    display.illuminance_scale = fitted_to(display.illuminance_scale, field, areas, PictureQuantity::illuminance);
+    return display;
+}
+
+std::expected<void, std::string> write_picture(const RenderCommand& command, const RadianceImage& image,
+                                               const DisplaySettings& display, const ImageMetadata& metadata) {
+    const bool deep = command.bits == 16;
+    if (command.false_colour.on) {
+        const bool lux = command.quantity == PictureQuantity::illuminance;
+        const FalseColourSettings& scale = lux ? display.illuminance_scale : display.luminance_scale;
+        const auto write = [&](auto picture) {
+            draw_legend(picture, scale, lux ? "lx" : "cd/m2");
+            return write_display_image(command.output, picture, metadata);
+        };
+        return deep ? write(deep_false_colour_image(image, scale)) : write(false_colour_image(image, scale));
+    }
+    return deep ? write_display_image(command.output, deep_display_image(image, display), metadata)
+                : write_display_image(command.output, display_image(image, display), metadata);
 }
 
 int render(const RenderCommand& command, BatchSession& session) {
@@ -50,15 +111,24 @@ int render(const RenderCommand& command, BatchSession& session) {
     for (const auto& fault : faults) session.error(command.batch.scene.string() + ": " + fault);
     if (!faults.empty()) return exit_mistake;
 
+    if (command.spectral && (command.output.extension() != ".exr" || command.quantity != PictureQuantity::colour ||
+                             scene->solve.wavelengths.rule == WavelengthRule::rgb)) {
+        session.error("--spectral: needs an output ending in .exr, --quantity colour and other wavelengths than rgb");
+        return exit_mistake;
+    }
     Solution solution(scene);
     if (const auto solved = session.solve(solution, false); !solved) return solved.error();
 
     RadianceImage image;
+    SpectralImage spectral;
     session.timed("picture", [&] {
         const FieldView view{scene, solution.mesh(), solution.world(), solution.field()};
         const PictureParams size{.width = command.width, .height = command.height};
         image = render_picture(view, scene->camera, size, command.quantity, session.cancel(),
                                [&](double share) { session.bar().show("picture", share); });
+        if (command.spectral && !session.cancel())
+            spectral = render_spectral_picture(view, scene->camera, size, session.cancel(),
+                                               [&](double share) { session.bar().show("wavelengths", share); });
     });
     if (session.cancel()) return exit_interrupted;
 
@@ -66,13 +136,19 @@ int render(const RenderCommand& command, BatchSession& session) {
     session.timed("write", [&] {
         auto metadata =
             picture_metadata(*scene, command.batch.scene, scene->camera, solution.status(), command.quantity);
+        if (command.spectral) {
+            written = spectral.planes.empty()
+                          ? std::unexpected(std::string("--spectral: the scene is too large to keep its wavelengths"))
+                          : write_spectral_image(command.output, spectral, image, metadata);
+            return;
+        }
         if (is_radiance_image_name(command.output)) {
             written = write_radiance_image(command.output, image, metadata);
             return;
         }
-        scene->display.max_display = used_max_display(image, scene->display);
-        add_display_metadata(metadata, scene->display);
-        written = write_display_image(command.output, display_image(image, scene->display), metadata);
+        const DisplaySettings display = display_used(image, *scene, *solution.mesh(), *solution.field());
+        add_display_metadata(metadata, display, command.false_colour.on);
+        written = write_picture(command, image, display, metadata);
     });
     if (!written) return session.failed(written.error());
     session.bar().wipe();

@@ -30,6 +30,8 @@ std::string report_json(const std::string& command, const BatchParams& params, c
     report["scene"] = params.scene.string();
     report["solver"] = to_string(settings.solver);
     report["wavelengths"] = to_string(settings.wavelengths);
+    report["wavelengths_in_use"] = status.wavelengths;
+    if (status.predicted_colour_error >= 0) report["predicted_colour_error"] = status.predicted_colour_error;
     report["seed"] = settings.seed;
     report["threads"] = tbb::this_task_arena::max_concurrency();
     report["end"] = to_string(solved.end);

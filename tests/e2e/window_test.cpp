@@ -120,12 +120,15 @@ TEST(Window, DimsRepaintsDisplaysAndSavesTheCornellBox) {
     program.rest_hand();
     ASSERT_TRUE(program.wait_still());
     const auto by_srgb = program.screen();
+    const auto light = program.layout();
     program.click("curve:Gamma");
     program.drag("gamma", 0.6, 0.25);
     program.rest_hand();
     ASSERT_TRUE(program.wait_still());
     const auto facts = program.layout();
     ASSERT_EQ(facts["srgb_curve"], false);
+    for (const char* work : {"rays", "sweeps", "snapshot_revision"})
+        EXPECT_EQ(facts[work], light[work]) << "the display is no work for the solver";
     const double gamma = facts["gamma"].get<double>();
     ASSERT_GT(gamma, 1.1);
     ASSERT_LT(gamma, 2);

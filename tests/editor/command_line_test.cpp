@@ -63,19 +63,56 @@ TEST(CommandLine, Render) {
     EXPECT_EQ(render.output, "a.png");
     EXPECT_EQ(render.width, 640);
     EXPECT_EQ(render.height, 480);
-    EXPECT_EQ(render.gamma, 1.8);
+    EXPECT_EQ(render.gamma, glm::dvec3(1.8));
     EXPECT_EQ(render.max_display, 120);
-    EXPECT_FALSE(render.max_display_auto);
+    EXPECT_FALSE(render.max_display_rule.has_value());
     EXPECT_EQ(render.clip, ClipRule::desaturate);
     EXPECT_EQ(render.quantity, PictureQuantity::luminance);
     EXPECT_EQ(render.batch.time_limit, 2.5);
     EXPECT_EQ(render.batch.report, "r.json");
     EXPECT_EQ(render.batch.solve.solver, SolverKind::gathering);
     EXPECT_TRUE(parsed<RenderCommand>({"render", "room.toml", "--output", "a.exr"}).batch.report.empty());
-    EXPECT_TRUE(
-        parsed<RenderCommand>({"render", "room.toml", "-o", "a.png", "--max-display", "auto"}).max_display_auto);
+    EXPECT_EQ(parsed<RenderCommand>({"render", "room.toml", "-o", "a.png", "--max-display", "auto"}).max_display_rule,
+              MaxDisplayRule::percentile);
     EXPECT_EQ(parsed<RenderCommand>({"render", "room.toml", "-o", "a.png", "--curve", "gamma", "--gamma", "2"}).curve,
               TransferCurve::gamma);
+}
+
+TEST(CommandLine, RenderDisplay) {
+    const auto render =
+        parsed<RenderCommand>({"render",     "room.toml",         "-o",           "a.tif",         "--bits",
+                               "16",         "--gamma",           "1.8,2,2.4",    "--max-display", "p95",
+                               "--operator", "tumblin_rushmeier", "--adaptation", "12.5",          "--white-luminance",
+                               "200",        "--primaries",       "display_p3",   "--mark",        "gamut,clipped"});
+    EXPECT_EQ(render.bits, 16);
+    EXPECT_EQ(render.gamma, glm::dvec3(1.8, 2, 2.4));
+    EXPECT_EQ(render.max_display_rule, MaxDisplayRule::percentile);
+    EXPECT_EQ(render.percentile, 95);
+    EXPECT_EQ(render.tone_operator, ToneOperator::tumblin_rushmeier);
+    EXPECT_EQ(render.adaptation, 12.5);
+    EXPECT_EQ(render.white_luminance, 200);
+    EXPECT_EQ(render.primaries, display_p3);
+    EXPECT_TRUE(render.mark_clipped && render.mark_out_of_gamut);
+    const auto lecture = parsed<RenderCommand>({"render", "r.toml", "-o", "a.png", "--max-display", "lecture",
+                                                "--primaries", "0.628,0.346,0.268,0.588,0.15,0.07,0.313,0.329"});
+    EXPECT_EQ(lecture.max_display_rule, MaxDisplayRule::lecture);
+    EXPECT_EQ(lecture.primaries, lecture_monitor);
+    EXPECT_EQ(parsed<RenderCommand>({"render", "r.toml", "-o", "a.png", "--max-display", "1e-30"}).max_display, 1e-30);
+    EXPECT_EQ(parsed<RenderCommand>({"render", "r.toml", "-o", "a.png", "--max-display", "1e30"}).max_display, 1e30);
+}
+
+TEST(CommandLine, RenderFalseColour) {
+    const auto render =
+        parsed<RenderCommand>({"render", "r.toml", "-o", "a.png", "--quantity", "illuminance", "--false-colour",
+                               "10:1000", "--isolux", "100,300,500", "--scale", "linear"});
+    EXPECT_TRUE(render.false_colour.on);
+    EXPECT_EQ(render.false_colour.range, std::pair(10.0, 1000.0));
+    EXPECT_EQ(render.false_colour.levels, (std::vector<double>{100, 300, 500}));
+    EXPECT_EQ(render.false_colour.logarithmic, false);
+    const auto automatic = parsed<RenderCommand>(
+        {"render", "r.toml", "-o", "a.png", "--quantity", "luminance", "--false-colour", "auto", "--isolux", "none"});
+    EXPECT_TRUE(automatic.false_colour.automatic && automatic.false_colour.no_isolines);
+    EXPECT_FALSE(automatic.false_colour.range.has_value());
 }
 
 TEST(CommandLine, Measure) {
@@ -102,9 +139,13 @@ TEST(CommandLine, HelpAndVersionAreForStdout) {
     }
     EXPECT_EQ(std::get<ExitNow>(parse({"--version"})).text, std::string("lueur ") + LUEUR_VERSION + "\n");
     const auto help = std::regex_replace(std::get<ExitNow>(parse({"render", "--help"})).text, std::regex("\\s+"), " ");
-    for (const char* word : {"--output", "--size", "--gamma", "--max-display", "--clip", "--curve", "--quantity",
-                             "--solver", "--wavelengths", "--error", "--time", "--threads", "--seed", "--report",
-                             "clamp, keep_chromaticity, desaturate, scale_all", "cd/m2"})
+    for (const char* word :
+         {"--output",      "--size",         "--gamma",    "--max-display",
+          "--clip",        "--curve",        "--quantity", "--solver",
+          "--wavelengths", "--error",        "--time",     "--threads",
+          "--seed",        "--report",       "--operator", "--primaries",
+          "--bits",        "--false-colour", "--isolux",   "clamp, keep_chromaticity, desaturate, scale_all",
+          "cd/m2"})
         EXPECT_THAT(help, HasSubstr(word));
 }
 
@@ -131,7 +172,34 @@ TEST(CommandLine, MistakesGetOneLineThatSaysWhatIsAllowed) {
         {{"render", "a.toml", "-o", "a.png", "--max-display", "0"}, "above 0"},
         {{"render", "a.toml", "-o", "a.png", "--max-display", "bright"}, "auto"},
         {{"render", "a.toml", "-o", "a.png", "--clip", "hard"}, "clamp, keep_chromaticity, desaturate, scale_all"},
-        {{"render", "a.toml", "-o", "a.png", "--curve", "log"}, "gamma, srgb"},
+        {{"render", "a.toml", "-o", "a.png", "--curve", "log"}, "srgb, gamma"},
+        {{"render", "a.toml", "-o", "a.png", "--gamma", "-2.2"}, "from 0.1 to 10"},
+        {{"render", "a.toml", "-o", "a.png", "--gamma", "1e-30"}, "from 0.1 to 10"},
+        {{"render", "a.toml", "-o", "a.png", "--gamma", "1e30"}, "from 0.1 to 10"},
+        {{"render", "a.toml", "-o", "a.png", "--gamma", "2,2"}, "three like 2.2,2.2,2.4"},
+        {{"render", "a.toml", "-o", "a.png", "--gamma", "2,2,0"}, "from 0.1 to 10"},
+        {{"render", "a.toml", "-o", "a.png", "--max-display", "-1"}, "above 0"},
+        {{"render", "a.toml", "-o", "a.png", "--max-display", "nan"}, "above 0"},
+        {{"render", "a.toml", "-o", "a.png", "--max-display", "1e31"}, "1e-30..1e30"},
+        {{"render", "a.toml", "-o", "a.png", "--max-display", "p0"}, "p1 to p100"},
+        {{"render", "a.toml", "-o", "a.png", "--operator", "aces"}, "linear, tumblin_rushmeier, filmic"},
+        {{"render", "a.toml", "-o", "a.png", "--operator", "filmic", "--adaptation", "5"}, "tumblin_rushmeier"},
+        {{"render", "a.toml", "-o", "a.png", "--adaptation", "0"}, "0.001..1e6"},
+        {{"render", "a.toml", "-o", "a.png", "--primaries", "crt"}, "srgb, rec709, rec2020, display_p3, lecture"},
+        {{"render", "a.toml", "-o", "a.png", "--primaries", "0.6,0.3,0.3,0.6,0.1,0.1,0.7,0.7"}, "inside the"},
+        {{"render", "a.toml", "-o", "a.png", "--bits", "12"}, "8, 16"},
+        {{"render", "a.toml", "-o", "a.jpg", "--bits", "16"}, ".png or .tif"},
+        {{"render", "a.toml", "-o", "a.exr", "--bits", "16"}, "does nothing in a.exr"},
+        {{"render", "a.toml", "-o", "a.png", "--mark", "red"}, "clipped, gamut"},
+        {{"render", "a.toml", "-o", "a.png", "--false-colour", "1:10"}, "needs --quantity"},
+        {{"render", "a.toml", "-o", "a.png", "--quantity", "luminance", "--false-colour", "10:1"}, "the lower first"},
+        {{"render", "a.toml", "-o", "a.png", "--quantity", "luminance", "--false-colour", "0:1"}, "1e-6..1e12"},
+        {{"render", "a.toml", "-o", "a.png", "--quantity", "luminance", "--false-colour", "auto", "--clip", "clamp"},
+         "a scale of its own"},
+        {{"render", "a.toml", "-o", "a.png", "--isolux", "100"}, "without --false-colour"},
+        {{"render", "a.toml", "-o", "a.png", "--quantity", "illuminance", "--false-colour", "auto", "--isolux", "0"},
+         "auto, none"},
+        {{"render", "a.toml", "-o", "a.png", "--quantity", "illuminance", "--max-display", "lecture"}, "pNN"},
         {{"render", "a.toml", "-o", "a.png", "--quantity", "lux"}, "colour, luminance, illuminance"},
         {{"render", "a.toml", "-o", "a.png", "--error", "0"}, "above 0"},
         {{"render", "a.toml", "-o", "a.png", "--time", "soon"}, "above 0"},
@@ -160,6 +228,46 @@ TEST(CommandLine, MistakesGetOneLineThatSaysWhatIsAllowed) {
         EXPECT_THAT(stop.text, testing::StartsWith("lueur")) << all;
         EXPECT_THAT(stop.text, HasSubstr(says)) << all;
         EXPECT_EQ(stop.text.find('\n'), stop.text.size() - 1) << all << "\n" << stop.text;
+    }
+}
+
+TEST(CommandLine, Plan) {
+    const auto plan = parsed<PlanCommand>(
+        {"plan", "room.toml", "--wavelengths", "folded:9", "--colour-error", "1.5", "--report", "plan.json"});
+    EXPECT_EQ(plan.batch.scene, "room.toml");
+    EXPECT_EQ(plan.batch.solve.wavelengths, (WavelengthsSpec{WavelengthRule::folded, 9}));
+    EXPECT_EQ(plan.batch.solve.colour_error, 1.5);
+    EXPECT_EQ(plan.batch.report, "plan.json");
+    for (const std::vector<const char*>& wrong : {std::vector<const char*>{"plan"},
+                                                  {"plan", "room.toml", "--time", "3"},
+                                                  {"plan", "room.toml", "--colour-error", "0"},
+                                                  {"plan", "room.toml", "--wavelengths", "some"},
+                                                  {"plan", "a.toml", "b.toml"}}) {
+        const CommandLine line = parse(wrong);
+        const auto* stop = std::get_if<ExitNow>(&line);
+        ASSERT_NE(stop, nullptr);
+        EXPECT_EQ(stop->code, 2);
+        EXPECT_THAT(stop->text, testing::StartsWith("lueur plan: "));
+    }
+}
+
+TEST(CommandLine, Chart) {
+    const auto chart = parsed<ChartCommand>({"chart", "--of", "spectra", "-o", "a.svg", "--csv", "a.csv"});
+    EXPECT_TRUE(chart.batch.scene.empty());
+    EXPECT_EQ(chart.of, ChartSubject::spectra);
+    EXPECT_EQ(chart.output, "a.svg");
+    EXPECT_EQ(chart.csv, "a.csv");
+    EXPECT_EQ(parsed<ChartCommand>({"chart", "room.toml", "--of", "spectra", "-o", "a.svg"}).batch.scene, "room.toml");
+    for (const std::vector<const char*>& wrong : {std::vector<const char*>{"chart", "-o", "a.svg"},
+                                                  {"chart", "--of", "tea", "-o", "a.svg"},
+                                                  {"chart", "--of", "spectra"},
+                                                  {"chart", "--of", "spectra", "-o", "a.png"},
+                                                  {"chart", "--of", "spectra", "-o", "a.svg", "--wavelengths", "8"}}) {
+        const CommandLine line = parse(wrong);
+        const auto* stop = std::get_if<ExitNow>(&line);
+        ASSERT_NE(stop, nullptr);
+        EXPECT_EQ(stop->code, 2);
+        EXPECT_THAT(stop->text, testing::StartsWith("lueur chart: "));
     }
 }
 

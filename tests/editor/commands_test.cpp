@@ -217,7 +217,7 @@ TEST_F(Furnace, IsRefusedBeforeTheSolveWhenItCannotBeWritten) {
 TEST_F(Furnace, RendersAnEvenPictureThatSaysHowItWasMade) {
     auto command = render("furnace.png");
     command.max_display = 300;
-    command.gamma = 2.0;
+    command.gamma = glm::dvec3(2.0);
     command.batch.report = file("report.json");
     ASSERT_EQ(run(command), 0);
     const auto picture = read_texture(command.output);
@@ -315,6 +315,102 @@ TEST_F(Furnace, CtrlCEndsWithoutAHalfFile) {
     EXPECT_EXIT(run_and_stop(picture), testing::ExitedWithCode(130), "");
     EXPECT_FALSE(std::filesystem::exists(file("stopped.png")));
     EXPECT_EQ(files_in(folder_.path()), 1u) << "the scene";
+}
+
+TEST_F(Furnace, PlansItsWavelengths) {
+    PlanCommand plan;
+    plan.batch.scene = file("furnace.toml");
+    plan.batch.solve.wavelengths = WavelengthsSpec{WavelengthRule::automatic, 0};
+    plan.batch.report = file("plan.json");
+    testing::internal::CaptureStdout();
+    ASSERT_EQ(run(plan), 0);
+    const auto told = testing::internal::GetCapturedStdout();
+    // Grey walls need one sample, whatever the lamp.
+    EXPECT_THAT(told, HasSubstr("12 triangles, 6 surfaces, 1 luminaires with 1 different spectra, 1 different"));
+    EXPECT_THAT(told, HasSubstr("auto (folded:1)"));
+    EXPECT_THAT(told, HasSubstr("one lamp spectrum: predicted dE2000 0.00 on average, 0.00 at worst"));
+    for (const char* rule : {"meyer:4", "gauss:10", "uniform:31", "uniform:81", "rgb"})
+        EXPECT_THAT(told, HasSubstr(rule));
+    const auto report = nlohmann::json::parse(text_of(file("plan.json")));
+    EXPECT_EQ(report["asked"], "auto");
+    EXPECT_EQ(report["wavelengths"], "folded:1");
+    EXPECT_EQ(report["channel_nm"].size(), 1u);
+    EXPECT_EQ(report["lamps"][0]["luminaires"], "walls");
+    EXPECT_NEAR(report["worst_de2000"].get<double>(), 0, 1e-3);
+    ASSERT_EQ(report["rules"].size(), 6u);
+    EXPECT_EQ(report["rules"][4]["rule"], "uniform:81");
+    EXPECT_EQ(report["rules"][4]["padded_channels"], 88);
+    EXPECT_DOUBLE_EQ(report["rules"][4]["sweep_of_uniform_31"], 88.0 / 32);
+    EXPECT_DOUBLE_EQ(report["rules"][0]["sweep_of_uniform_81"], 8.0 / 88);
+
+    // A rule of one's own is predicted and compared with the others once.
+    plan.batch.solve.wavelengths = WavelengthsSpec{WavelengthRule::uniform, 31};
+    testing::internal::CaptureStdout();
+    ASSERT_EQ(run(plan), 0);
+    testing::internal::GetCapturedStdout();
+    EXPECT_EQ(nlohmann::json::parse(text_of(file("plan.json")))["rules"].size(), 5u);
+}
+
+TEST_F(Furnace, PlanTellsMistakesAndWritesNothing) {
+    PlanCommand plan;
+    plan.batch.scene = file("missing.toml");
+    plan.batch.report = file("plan.json");
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(run(plan), 2);
+    EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("missing.toml"));
+    plan.batch.scene = file("furnace.toml");
+    plan.batch.report = file("nowhere") / "plan.json";
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(run(plan), 2);
+    EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("there is no folder"));
+    EXPECT_EQ(files_in(folder_.path()), 1u);
+}
+
+TEST_F(Furnace, ChartsSpectra) {
+    ChartCommand chart;
+    chart.batch.scene = file("furnace.toml");
+    chart.output = file("chart.svg");
+    chart.csv = file("chart.csv");
+    testing::internal::CaptureStdout();
+    ASSERT_EQ(run(chart), 0);
+    testing::internal::GetCapturedStdout();
+    const std::string svg = text_of(file("chart.svg"));
+    for (const char* word : {"folded", "uniform", "gauss", "meyer", "rgb", "auto", "LED-B3", "solve time, ms"})
+        EXPECT_THAT(svg, HasSubstr(word));
+    const std::string text = text_of(file("chart.csv"));
+    const auto records = parse_csv(text);
+    ASSERT_GT(records.size(), 200u);
+    EXPECT_EQ(records[0].raw, "lights,light,rule,wavelengths,channels,mean_de2000,worst_de2000,solve_seconds");
+    int autos = 0;
+    for (std::size_t r = 1; r < records.size(); ++r) {
+        ASSERT_EQ(records[r].fields.size(), 8u);
+        const double worst = number_from_text(records[r].fields[6].text).value_or(-1),
+                     seconds = number_from_text(records[r].fields[7].text).value_or(-1);
+        EXPECT_GT(seconds, 0);
+        EXPECT_GE(worst, number_from_text(records[r].fields[5].text).value_or(1e9));
+        if (records[r].fields[2].text == "auto") {
+            ++autos;
+            EXPECT_LE(worst, 0.5);
+        }
+    }
+    EXPECT_EQ(autos, 6);
+}
+
+TEST_F(Furnace, AnInterruptedChartWritesNothing) {
+    ChartCommand chart;
+    chart.batch.scene = file("furnace.toml");
+    chart.output = file("chart.svg");
+    chart.csv = file("nowhere") / "chart.csv";
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(run(chart), 2);
+    EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("there is no folder"));
+    chart.csv = file("chart.csv");
+    std::jthread ctrl_c([] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));
+        kill(getpid(), SIGINT);
+    });
+    EXPECT_EQ(run(chart), 130);
+    EXPECT_EQ(files_in(folder_.path()), 1u);
 }
 
 } // namespace

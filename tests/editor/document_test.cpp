@@ -172,7 +172,7 @@ Edit random_edit(std::mt19937& random, const Scene& scene) {
         return SetEmitSide{LuminaireIndex(0), EmitSide(one_of(3))};
     case 9: {
         DisplaySettings display = scene.display;
-        display.gamma = number(1, 3);
+        display.gamma = glm::dvec3(number(1, 3));
         return SetDisplay{display};
     }
     default: {

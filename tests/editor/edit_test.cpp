@@ -63,7 +63,7 @@ TEST(FirstStaleStage, IsTheEarliestThatTheEditTouches) {
         {SetEmissionSpectrum{LuminaireIndex(0), Blackbody{3000}}, Stage::sources},
         {SetEmitSide{LuminaireIndex(0), EmitSide::both}, Stage::mesh},
         {SetCamera{camera_with([](Camera& c) { c.position.x += 1; })}, Stage::view},
-        {SetDisplay{display_with([](DisplaySettings& d) { d.gamma = 1.8; })}, Stage::display},
+        {SetDisplay{display_with([](DisplaySettings& d) { d.gamma = glm::dvec3(1.8); })}, Stage::display},
         {SetSolve{scene.solve}, Stage::nothing},
         {SetSolve{settings_with([](SolveSettings& s) {
              s.wavelengths = {WavelengthRule::rgb, 3};
@@ -136,10 +136,13 @@ TEST(ApplyEdit, RefusesWhatIsNotThereOrNotAllowed) {
         SetCamera{camera_with([](Camera& c) { c.vertical_fov_degrees = 180; })},
         SetCamera{camera_with([](Camera& c) { c.position.x = nan_value; })},
         SetDisplay{display_with([](DisplaySettings& d) { d.max_display = 0; })},
-        SetDisplay{display_with([](DisplaySettings& d) { d.curve = TransferCurve::gamma, d.gamma = 0; })},
-        SetDisplay{display_with([](DisplaySettings& d) { d.curve = TransferCurve::gamma, d.gamma = infinite; })},
+        SetDisplay{display_with([](DisplaySettings& d) { d.curve = TransferCurve::gamma, d.gamma = glm::dvec3(0); })},
+        SetDisplay{
+            display_with([](DisplaySettings& d) { d.curve = TransferCurve::gamma, d.gamma = glm::dvec3(infinite); })},
         SetSolve{settings_with([](SolveSettings& s) { s.target_error = 0; })},
-        SetSolve{settings_with([](SolveSettings& s) { s.wavelengths.count = 0; })},
+        SetSolve{settings_with([](SolveSettings& s) {
+            s.wavelengths = {WavelengthRule::uniform, 0};
+        })},
         SetSolve{settings_with([](SolveSettings& s) { s.element_size = -1; })},
         SetSolve{settings_with([](SolveSettings& s) { s.max_rays = 0; })},
     };

@@ -186,15 +186,17 @@ TEST_F(PanelsTest, GammaAndCurveChangeOnlyTheDisplay) {
     EXPECT_EQ(document_.scene().display.curve, TransferCurve::gamma);
     const auto edits = drag(display_panel, "gamma", 0.6f, 0.1f);
     ASSERT_FALSE(edits.empty());
-    EXPECT_LT(document_.scene().display.gamma, 1.4);
+    EXPECT_LT(document_.scene().display.gamma.r, 1.4);
+    EXPECT_EQ(document_.scene().display.gamma, glm::dvec3(document_.scene().display.gamma.r)) << "all channels";
     for (const auto& edit : edits) EXPECT_EQ(first_stale_stage(edit, document_.scene()), Stage::display);
-    EXPECT_TRUE(document_.scene().display.max_display_auto) << "gamma does not touch MAXDISPLAY";
+    EXPECT_EQ(document_.scene().display.max_display_rule, MaxDisplayRule::percentile)
+        << "gamma does not touch MAXDISPLAY";
 }
 
 TEST_F(PanelsTest, MaxDisplayByHandIsNoLongerAutomatic) {
     state_->exposure.chosen = 80;
     drag(display_panel, "max_display", 0.4f, 0.8f);
-    EXPECT_FALSE(document_.scene().display.max_display_auto);
+    EXPECT_EQ(document_.scene().display.max_display_rule, MaxDisplayRule::by_hand);
     EXPECT_GT(document_.scene().display.max_display, 80);
 }
 
