@@ -9,7 +9,8 @@ DisplayImage calibration_picture(int width, int height, TransferCurve curve, con
     DisplayImage picture{std::max(width, 0), std::max(height, 0), {}};
     for (int y = 0; y < picture.height; ++y)
         for (int x = 0; x < picture.width; ++x) {
-            const int column = calibration_column_count * x / picture.width, row = calibration_row_count * y / picture.height;
+            const int column = calibration_column_count * x / picture.width,
+                      row = calibration_row_count * y / picture.height;
             const auto within = [](int at, int cells, int size) { // place in its cell, 0..1
                 const double place = (at + 0.5) * cells / size;
                 return place - std::floor(place);

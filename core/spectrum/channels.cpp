@@ -26,8 +26,7 @@ double mean_under(const Spectrum& hat, const Spectrum& emission) {
 // Narrow lines keep their power: sum_k watt_weight[k] * mean_k is the emission's integral over 380..780 nm.
 std::vector<double> emission_means(const Wavelengths& wavelengths, const Spectrum& emission) {
     std::vector<double> means;
-    for (int k = 0; k < wavelengths.size(); ++k)
-        means.push_back(mean_under(emission_hat(wavelengths, k), emission));
+    for (int k = 0; k < wavelengths.size(); ++k) means.push_back(mean_under(emission_hat(wavelengths, k), emission));
     return means;
 }
 

@@ -1,11 +1,14 @@
 #include "core/spectrum/spectral_content.h"
 
+#include <algorithm>
+
 #include "core/spectrum/visible_grid.h"
 
 namespace lueur {
 
 namespace {
 
+constexpr double most_mean = 0.95;
 constexpr int all_triples_up_to = 60; // reflectances: 37,820 triples
 
 } // namespace
@@ -20,6 +23,9 @@ std::vector<Spectrum> with_their_mean(std::vector<Spectrum> reflectances) {
         for (std::size_t j = 0; j < values.size(); ++j)
             mean.value[j] += values[j] / static_cast<double>(reflectances.size());
     }
+    for (double& value : mean.value) value = std::min(value, most_mean);
+    const double most = *std::ranges::max_element(mean.value);
+    for (double& value : mean.value) value *= (1 - most) / (1 - value); // m + m^2 + m^3..., scaled to end at m
     reflectances.push_back(std::move(mean));
     return reflectances;
 }

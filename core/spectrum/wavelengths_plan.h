@@ -5,8 +5,9 @@
 
 namespace lueur {
 
-// CIEDE2000 between the colours of the content's products (one to three reflections, by single paints and by their mean,
-// under each of its lights) in these channels and by integration at 1 nm, white being the light itself. Lights that nobody sees do not count.
+// CIEDE2000 between the colours of the content's products (one to three reflections, by single paints and by their
+// mean, under each of its lights) in these channels and by integration at 1 nm, white being the light itself. Lights
+// that nobody sees do not count.
 struct ColourPrediction {
     double mean = 0, worst = 0;
 };
