@@ -22,11 +22,13 @@ using Eigen::VectorXd;
 
 constexpr int grid_first = 380, grid_last = 780, grid_step = 5;
 constexpr int candidates = (grid_last - grid_first) / grid_step + 1;
-constexpr std::size_t most_products = 500;
-constexpr double edge_weight = 0.4;             // of the smooth edges together, among the paints' own products
+constexpr std::size_t most_products = 400;
+constexpr double edge_weight = 0.8;             // of the smooth edges together, among the paints' own products
 constexpr double cie_threshold = 216.0 / 24389; // below it L* is linear (CIE 15:2018)
 constexpr int exchange_reach = 4;               // candidates either side
 constexpr int most_rounds = 6;
+constexpr double even_first = 400, even_last = 690; // nm: where nearly all of XYZ is
+constexpr int most_even = 32;                       // samples that are then still apart from each other
 constexpr int lawson_rounds = 12, polish_rounds = 4;
 constexpr double negligible = 0.02; // dE2000
 // Of a normal matrix's mean diagonal: keeps neighbours from cancelling each other in large weights.
@@ -181,7 +183,7 @@ FoldedFit::FoldedFit(const SpectralContent& content)
     : state_(std::make_unique<State>()) {
     State& s = *state_;
     std::vector<VisibleGrid> reflectances;
-    for (const Spectrum& reflectance : with_their_mean(content.reflectances))
+    for (const Spectrum& reflectance : with_interreflection(content.reflectances))
         reflectances.push_back(on_visible_grid(reflectance, Outside::constant));
     const std::vector<ReflectanceProduct> products =
         reflectance_products(static_cast<int>(reflectances.size()), most_products);
@@ -266,9 +268,8 @@ std::vector<double> FoldedFit::choose(int count) const {
                       low + static_cast<int>(best));
         return lowest;
     };
-    while (static_cast<int>(state_->chosen.size()) < std::min(count, candidates)) {
-        std::vector<int> set = state_->chosen.empty() ? std::vector<int>{} : state_->chosen.back();
-        double lowest = exchange(set, 0, candidates - 1);
+    // Each in turn is moved within its reach while that helps.
+    const auto improve = [&](std::vector<int>& set, double lowest) {
         for (int round = 0; round < most_rounds; ++round) {
             const double before = lowest;
             for (std::size_t k = 0; k < set.size(); ++k) {
@@ -281,7 +282,18 @@ std::vector<double> FoldedFit::choose(int count) const {
             }
             if (!(lowest < before * (1 - 1e-6))) break;
         }
-        state_->chosen.push_back(std::move(set));
+        return lowest;
+    };
+    while (static_cast<int>(state_->chosen.size()) < std::min(count, candidates)) {
+        std::vector<int> grown = state_->chosen.empty() ? std::vector<int>{} : state_->chosen.back();
+        double lowest = exchange(grown, 0, candidates - 1);
+        lowest = improve(grown, lowest);
+        const int wanted = static_cast<int>(grown.size());
+        std::vector<int> even; // another start, for a grown set may be caught in a valley of its own
+        for (int k = 0; k < wanted && wanted <= most_even; ++k)
+            even.push_back(candidate_of(even_first + (even_last - even_first) * (k + 0.5) / wanted));
+        if (!even.empty() && improve(even, std::numeric_limits<double>::infinity()) < lowest) grown = std::move(even);
+        state_->chosen.push_back(std::move(grown));
     }
     std::vector<double> nm;
     for (const int c : state_->chosen[std::min(static_cast<std::size_t>(count), state_->chosen.size()) - 1])

@@ -29,8 +29,8 @@ public:
     FoldedFit& operator=(FoldedFit&&) noexcept;
 
     // All nm are on a grid of 5 nm, 380..780.
-    // Wavelengths, increasing, for that many samples: grown greedily from a good smaller set, then exchanged one by one
-    // for their neighbours on the grid while that lowers the misfit.
+    // Wavelengths, increasing, for that many samples: grown greedily from a good smaller set, or evenly spaced, and
+    // then exchanged one by one for their neighbours on the grid while that lowers the misfit.
     std::vector<double> choose(int count) const; // remembers the smaller sets: not for two threads at a time
     // Moves each wavelength to its neighbour on the grid where that makes the worst colour difference smaller, until it
     // is `enough`.

@@ -8,12 +8,12 @@ namespace lueur {
 
 namespace {
 
-constexpr double most_mean = 0.95;
+constexpr double most_mean = 0.95;    // for a scene that is all white
 constexpr int all_triples_up_to = 60; // reflectances: 37,820 triples
 
 } // namespace
 
-std::vector<Spectrum> with_their_mean(std::vector<Spectrum> reflectances) {
+std::vector<Spectrum> with_interreflection(std::vector<Spectrum> reflectances) {
     if (reflectances.size() < 2) return reflectances;
     Spectrum mean;
     for (int nm = observer_first_nm; nm <= observer_last_nm; ++nm) mean.nm.push_back(nm);
@@ -25,7 +25,7 @@ std::vector<Spectrum> with_their_mean(std::vector<Spectrum> reflectances) {
     }
     for (double& value : mean.value) value = std::min(value, most_mean);
     const double most = *std::ranges::max_element(mean.value);
-    for (double& value : mean.value) value *= (1 - most) / (1 - value); // m + m^2 + m^3..., scaled to end at m
+    for (double& value : mean.value) value *= (1 - most) / (1 - value);
     reflectances.push_back(std::move(mean));
     return reflectances;
 }

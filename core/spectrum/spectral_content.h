@@ -14,9 +14,10 @@ struct SpectralContent {
     bool operator==(const SpectralContent&) const = default;
 };
 
-// The reflectances, and, where there is more than one, their mean: light that comes from many surfaces is mixed and
-// nearly grey, where colour differences are seen best.
-std::vector<Spectrum> with_their_mean(std::vector<Spectrum> reflectances);
+// The reflectances, and, where there is more than one, what is left of light that was reflected by all of them any
+// number of times: m + m^2 + m^3... with m their mean, scaled to end at m. Such light is nearly grey, where colour
+// differences are seen best.
+std::vector<Spectrum> with_interreflection(std::vector<Spectrum> reflectances);
 
 // A colour that light may have after up to three reflections: indices of reflectances; -1 where there was none.
 using ReflectanceProduct = std::array<int, 3>;

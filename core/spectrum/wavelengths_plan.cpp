@@ -21,7 +21,7 @@ constexpr int most_samples = 24;
 constexpr double much_better = 1.5;
 // Times the target: what plain least squares may miss it by for weights of a small worst difference to be tried, and
 // what those may miss it by for other wavelengths to be tried.
-constexpr double within_reach = 3, nearly = 2.2;
+constexpr double within_reach = 3, nearly = 1.7;
 constexpr double surely = 0.5; // the fit looks at fewer products than the prediction
 constexpr WavelengthsSpec many_lamps{WavelengthRule::uniform, 31};
 
@@ -47,7 +47,7 @@ class Truth {
 public:
     explicit Truth(const SpectralContent& content)
         : content_(content)
-        , reflectances_(with_their_mean(content.reflectances))
+        , reflectances_(with_interreflection(content.reflectances))
         , products_(reflectance_products(static_cast<int>(reflectances_.size()), most_products)) {
         std::vector<std::vector<double>> fine;
         for (const Spectrum& reflectance : reflectances_) {

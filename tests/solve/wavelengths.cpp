@@ -31,20 +31,9 @@ std::vector<double> colour_differences(const Field& a, const Field& b, const Xyz
     for (const glm::vec3& xyz : b.irradiance_xyz) brightest = std::max<double>(brightest, xyz.y / M_PI);
     const Xyz white = lamp * (brightest / lamp.y);
     std::vector<double> differences;
-    for (std::size_t v = 0; v < b.reflected_xyz.size(); ++v) {
-        {
-            auto la = lab_from_xyz(Xyz(a.reflected_xyz[v]), white), lb = lab_from_xyz(Xyz(b.reflected_xyz[v]), white);
-            double d = delta_e_2000(la, lb);
-            static double w = 0;
-            if (d > w) {
-                w = d;
-                printf("DBG %zu dE %.3f  a %.2f %.2f %.2f b %.2f %.2f %.2f\n", v, d, la.L, la.a, la.b, lb.L, lb.a,
-                       lb.b);
-            }
-        }
+    for (std::size_t v = 0; v < b.reflected_xyz.size(); ++v)
         differences.push_back(
             delta_e_2000(lab_from_xyz(Xyz(a.reflected_xyz[v]), white), lab_from_xyz(Xyz(b.reflected_xyz[v]), white)));
-    }
     return differences;
 }
 

@@ -78,7 +78,7 @@ TEST(WavelengthsPlan, ThePredictionIsTrueForEveryRule) {
             const ColourPrediction predicted = predict_difference(w, content);
             const LightOnPaints lit(w, content.lights[0]);
             std::vector<LightOnPaints::Paint> paint; // and a mixture of them
-            for (const Spectrum& reflectance : with_their_mean(cornell)) paint.push_back(lit.paint(reflectance));
+            for (const Spectrum& reflectance : with_interreflection(cornell)) paint.push_back(lit.paint(reflectance));
             Differences differences;
             differences.add(lit.difference({}));
             for (std::size_t a = 0; a < paint.size(); ++a) {
@@ -95,8 +95,9 @@ TEST(WavelengthsPlan, ThePredictionIsTrueForEveryRule) {
 }
 
 // A paint that the fit has not seen: planned on every other patch, looked at on the rest and on the test colours of CIE
-// 13.3 (saturated ones among them). Measured: 0.32 on average and 2.9 at worst, up to three bounces, where the
-// prediction of the paints that were seen is 0.5: then the editor plans anew (EditsKeepTheWavelengths below).
+// 13.3 (saturated ones among them), up to three bounces. Measured over all lights of the library: 0.24 on average, 0.42
+// for the worst light, 3.1 for the worst product, where the paints that were seen have 0.5 at worst: then the editor
+// plans anew (EditsKeepTheWavelengthsWhileThePredictionHolds).
 TEST(WavelengthsPlan, ReflectancesThatTheFitHasNotSeen) {
     std::vector<Spectrum> seen, unseen, test_colours;
     const std::vector<Spectrum> all = patches();
@@ -117,9 +118,9 @@ TEST(WavelengthsPlan, ReflectancesThatTheFitHasNotSeen) {
     RecordProperty("mean", std::to_string(means.mean));
     RecordProperty("worst_mean", std::to_string(means.worst));
     RecordProperty("worst", std::to_string(worst));
-    EXPECT_LT(means.mean, 0.4);
-    EXPECT_LT(means.worst, 0.6);
-    EXPECT_LT(worst, 3);
+    EXPECT_LT(means.mean, 0.3);
+    EXPECT_LT(means.worst, 0.5);
+    EXPECT_LT(worst, 3.2);
 }
 
 TEST(WavelengthsPlan, MoreSamplesForASmallerTarget) {

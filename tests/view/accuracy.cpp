@@ -6,9 +6,11 @@
 
 #include "core/scene/scene_file.h"
 #include "core/solve/solution_state.h"
+#include "core/spectrum/observer.h"
 #include "core/spectrum/rgb_basis.h"
 #include "core/view/measure.h"
 #include "core/view/picture.h"
+#include "core/view/spectral_picture.h"
 #include "tests/support/scenes.h"
 #include "tests/support/surface_points.h"
 
@@ -191,9 +193,42 @@ TEST(Picture, TexturesModulateTheMean) {
     EXPECT_GT(looked_at, 100);
 }
 
+// The planes are means of 10 nm: their watts are the picture's, and their XYZ are its colour but for what the observer
+// changes within 10 nm.
+TEST(Picture, SpectralPlanesAddUpToThePicture) {
+    for (const WavelengthsSpec& spec : {WavelengthsSpec{WavelengthRule::automatic, 0}, {WavelengthRule::uniform, 31}}) {
+        Scene scene = textured_furnace(Rgb(0.5, 0.3, 0.4));
+        scene.luminaires[0].spectrum = Blackbody{3000};
+        scene.solve.wavelengths = spec;
+        const Solution solution = test::solved(scene);
+        const FieldView view{solution.scene(), solution.mesh(), solution.world(), solution.field()};
+        Camera camera;
+        camera.position = {0.3, 0.4, 0.2};
+        camera.target = {0.9, 0.6, 0.8};
+        const PictureParams params{16, 10, 1};
+        const RadianceImage image = render_picture(view, camera, params, PictureQuantity::colour, never);
+        const SpectralImage spectral = render_spectral_picture(view, camera, params, never);
+        ASSERT_EQ(spectral.planes.size(), 41u);
+        for (std::size_t pixel = 0; pixel < image.xyz.size(); pixel += 7) {
+            Xyz xyz(0);
+            for (std::size_t plane = 0; plane < spectral.nm.size(); ++plane)
+                xyz += luminous_efficacy_km * spectral_picture_step_nm * double(spectral.planes[plane][pixel]) *
+                       observer_xyz(spectral.nm[plane]);
+            EXPECT_LT(glm::distance(xyz, Xyz(image.xyz[pixel])), 0.02 * glm::length(xyz)) << to_string(spec);
+        }
+    }
+    Scene rgb = test::furnace(0.5);
+    rgb.solve.wavelengths = {WavelengthRule::rgb, 3};
+    const Solution solution = test::solved(rgb);
+    const FieldView view{solution.scene(), solution.mesh(), solution.world(), solution.field()};
+    EXPECT_TRUE(render_spectral_picture(view, {}, {4, 4, 1}, never).planes.empty()); // three channels are no spectrum
+}
+
 TEST(Picture, ABlackMeanUnderATextureShowsBlackNotInfinity) {
     const Solution solution = test::solved(textured_furnace(Rgb(0)));
-    for (const glm::mat3& by_texel : solution.field()->reflected_by_texel) ASSERT_EQ(by_texel, glm::mat3(0));
+    const auto field = solution.field();
+    ASSERT_FALSE(field->reflected_by_texel.empty());
+    for (const glm::mat3& by_texel : field->reflected_by_texel) ASSERT_EQ(by_texel, glm::mat3(0));
 }
 
 TEST(CameraRay, AgreesWithTheProjectionMatrix) {
