@@ -83,10 +83,13 @@ std::expected<std::unique_ptr<Renderer>, std::string> Renderer::make() {
         complaint += build(renderer->mesh_programs_[variant], defines_of(variant), mesh_vertex_shader,
                            variant & with_lines ? mesh_geometry_shader : "", mesh_fragment_shader);
     }
-    complaint +=
-        build(renderer->display_one_, "#define SAMPLES 1\n", screen_vertex_shader, "", display_fragment_shader);
-    complaint +=
-        build(renderer->display_many_, "#define SAMPLES 4\n", screen_vertex_shader, "", display_fragment_shader);
+    for (unsigned variant = 0; variant < renderer->display_programs_.size(); ++variant) {
+        std::string defines = variant & many_samples ? "#define SAMPLES 4\n" : "#define SAMPLES 1\n";
+        if (variant & plain_colour) defines += "#define PLAIN\n";
+        if (variant & with_outline) defines += "#define OUTLINE\n";
+        complaint +=
+            build(renderer->display_programs_[variant], defines, screen_vertex_shader, "", display_fragment_shader);
+    }
     if (!complaint.empty()) return std::unexpected("a shader does not compile: " + complaint);
 
     auto& r = *renderer;

@@ -5,6 +5,7 @@
 // Thread: the one that owns the current OpenGL context.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <expected>
 #include <map>
@@ -85,13 +86,16 @@ private:
     void choose_seen(const glm::mat4& clip_from_world, glm::vec3 eye, float smallest); // smallest: an edge's angle, rad
     void make_target(int width, int height, int samples);
     void draw_mesh(const RenderParams& params, double max_display);
+    // Variants of the display shader: each a set of these.
+    enum DisplayVariant : unsigned { many_samples = 1, plain_colour = 2, with_outline = 4 };
     void draw_display(const RenderParams& params, double divisor); // ui/renderer_display.cpp, as all below
+    unsigned display_variant(const RenderParams& params) const;
     const RadianceImage& seen_radiance();
     bool many_samples_are_cheap() const;
     void adapt_resolution(double seconds);
 
     std::map<unsigned, GlProgram> mesh_programs_; // by their variants, see renderer.cpp
-    GlProgram display_one_, display_many_;
+    std::array<GlProgram, 8> display_programs_;   // by theirs: DisplayVariant
     GlVertexArray vertex_array_, no_vertices_;
     struct ShadeBuffers {
         GlBuffer reflected, emitted, by_texel;

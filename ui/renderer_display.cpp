@@ -90,13 +90,22 @@ FalseColourSettings difference_scale() {
     return scale;
 }
 
+unsigned Renderer::display_variant(const RenderParams& params) const {
+    const DisplaySettings& display = params.display;
+    const bool colour = params.view != ViewMode::luminance && shows_colour(params.view);
+    const bool plain =
+        colour && display.tone_operator == ToneOperator::linear && !display.mark_clipped && !display.mark_out_of_gamut;
+    return (target_->samples > 1 ? many_samples : 0u) | (plain ? plain_colour : 0u) |
+           (params.selected ? with_outline : 0u);
+}
+
 void Renderer::draw_display(const RenderParams& params, double divisor) {
     glBindFramebuffer(GL_FRAMEBUFFER, target_->display_pass);
     glViewport(0, 0, target_->width, target_->height);
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_BLEND);
     glDisable(GL_DEPTH_TEST);
-    const Uniforms uniforms{target_->samples > 1 ? display_many_ : display_one_};
+    const Uniforms uniforms{display_programs_[display_variant(params)]};
     glUseProgram(uniforms.program);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(target_->samples > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D, target_->seen);
@@ -145,7 +154,6 @@ void Renderer::draw_display(const RenderParams& params, double divisor) {
     uniforms.set("backdrop", glm::dvec3(colours::backdrop.x, colours::backdrop.y, colours::backdrop.z));
     uniforms.set("line_colour", glm::dvec3(0.95));
     uniforms.set("outline_colour", glm::dvec3(colours::accent.x, colours::accent.y, colours::accent.z));
-    uniforms.set("outline", params.selected.has_value());
     uniforms.set("outline_width", std::max(1, static_cast<int>(std::lround(params.line_width))));
     uniforms.set("height", target_->height);
     glBindVertexArray(no_vertices_);

@@ -275,7 +275,7 @@ TEST_F(ShaderTest, IsoluxLinesAreTheFiles) {
     chart.snapshot.field = field;
     renderer_->set_snapshot(chart.snapshot);
     DisplaySettings display;
-    display.illuminance_scale = {false, 1, 1000, false, true, {200, 500, 800}};
+    display.illuminance_scale = {false, 1, 1000, false, true, {400, 500, 600}};
     auto params = params_for(front_camera(), display, 1);
     params.camera.target = {0.5, 0.5, 0};
     params.camera.position = {0.5, 0.5, 0.4}; // it fills the picture

@@ -11,14 +11,26 @@ uniform mat3 display_from_seen; // linear sRGB -> linear RGB of the display
 uniform float rescale;          // MAXDISPLAY of the mesh pass / MAXDISPLAY now
 uniform float divisor;          // of scale_all
 uniform vec3 luminance_weights; // of the display's primaries
-uniform int tone_operator;      // 0 linear, 1 tumblin_rushmeier, 2 filmic
 uniform vec3 tone;              // tumblin_rushmeier: log2_scale, exponent, ambient; filmic: exposure, white, divisor
 uniform int clip_rule;          // 0 clamp or scale_all, 1 keep_chromaticity, 2 desaturate
 uniform bool srgb_curve;
 uniform vec3 gamma;
-uniform bool mark_clipped, mark_out_of_gamut;
 
+// A software renderer computes both sides of every branch: what a picture does not need is known when its program is compiled.
+#ifdef PLAIN
+const int tone_operator = 0, quantity = 0;
+const bool mark_clipped = false, mark_out_of_gamut = false;
+#else
+uniform int tone_operator;   // 0 linear, 1 tumblin_rushmeier, 2 filmic
 uniform int quantity;        // 0 colour; false colour of 1 red (a scalar, as the unshot exitance), 2 the luminance of colour
+uniform bool mark_clipped, mark_out_of_gamut;
+#endif
+#ifdef OUTLINE
+const bool outline = true;
+#else
+const bool outline = false;
+#endif
+
 uniform vec3 quantity_scale; // 2: weights of linear sRGB / MAXDISPLAY of the mesh pass -> cd m^-2
 uniform bool log_scale;
 uniform float scale_low, scale_high; // of the false colours, their logarithms where log_scale
@@ -29,7 +41,6 @@ uniform float isoline_width; // pixels
 uniform vec3 backdrop;
 uniform vec3 line_colour;
 uniform vec3 outline_colour;
-uniform bool outline;
 uniform int outline_width; // pixels
 uniform int height;        // of the picture, pixels
 
