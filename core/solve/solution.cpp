@@ -92,8 +92,8 @@ void make_channels(State& s) {
                             luminaire.name, to_string(s.wavelengths->spec));
     }
     s.object_luminaire = luminaire_of_objects(scene);
-    s.status.message = s.status.emitted_lumens > 0 ? dark : "nothing emits light: the picture is black";
-    if (!dark.empty()) s.status.message = dark;
+    if (s.status.emitted_lumens <= 0 && dark.empty()) dark = "nothing emits light: the picture is black";
+    s.status.message = dark;
 }
 
 ChannelField rho_of_receivers(const State& s) {

@@ -3,9 +3,8 @@
 #include <Eigen/Dense>
 
 #include "core/spectrum/colour.h"
-#include "core/spectrum/observer_integral.h"
+#include "core/spectrum/reflectance_nodes.h"
 #include "core/spectrum/rgb_spectrum.h"
-#include "core/spectrum/visible_grid.h"
 
 namespace lueur {
 
@@ -14,23 +13,16 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int basis_first_nm = 380, basis_step_nm = 5, basis_count = 81;
 constexpr int most_rounds = 100;
 
-// Linear RGB of each sample's hat under D65, scaled so that white is exactly (1, 1, 1): 3 rows. End values go on.
-MatrixXd colour_of_samples() {
-    MatrixXd rgb = MatrixXd::Zero(3, basis_count);
-    const VisibleGrid light = moments_on_visible_grid(illuminant_d65());
+// Linear RGB of each node's hat under D65, scaled so that white is exactly (1, 1, 1): 3 rows. End values go on.
+MatrixXd colour_of_nodes() {
+    MatrixXd rgb(3, node_count);
+    const NodeWeights weights = node_weights(illuminant_d65());
     const glm::dmat3 from_xyz = rgb_from_xyz(srgb);
-    for (int j = 0; j < visible_count; ++j) {
-        const double place =
-            std::clamp((observer_first_nm + j - basis_first_nm) / double(basis_step_nm), 0.0, basis_count - 1.0);
-        const int left = std::min(static_cast<int>(place), basis_count - 2);
-        const glm::dvec3 seen = from_xyz * observer_xyz(observer_first_nm + j) * light[static_cast<std::size_t>(j)];
-        for (int c = 0; c < 3; ++c) {
-            rgb(c, left) += (left + 1 - place) * seen[c];
-            rgb(c, left + 1) += (place - left) * seen[c];
-        }
+    for (int k = 0; k < node_count; ++k) {
+        const glm::dvec3 seen = from_xyz * weights[static_cast<std::size_t>(k)];
+        for (int c = 0; c < 3; ++c) rgb(c, k) = seen[c];
     }
     for (int c = 0; c < 3; ++c) rgb.row(c) /= rgb.row(c).sum();
     return rgb;
@@ -40,14 +32,14 @@ MatrixXd colour_of_samples() {
 // program, solved by guessing which samples lie on their bound and correcting the guess by the signs of the multipliers
 // (Hintermüller, Ito & Kunisch 2002, primal-dual active set).
 std::array<Spectrum, 3> solve_basis() {
-    constexpr int n = basis_count, unknowns = 2 * n, bounds = 3 * n, colours = 6;
+    constexpr int n = node_count, unknowns = 2 * n, bounds = 3 * n, colours = 6;
     MatrixXd smooth = MatrixXd::Zero(n, n);
     for (int i = 0; i + 1 < n; ++i)
         smooth(i, i) += 1, smooth(i + 1, i + 1) += 1, smooth(i, i + 1) -= 1, smooth(i + 1, i) -= 1;
     MatrixXd hessian(unknowns, unknowns);
     hessian << 2 * smooth, smooth, smooth, 2 * smooth;
     MatrixXd equal = MatrixXd::Zero(colours, unknowns);
-    const MatrixXd rgb = colour_of_samples();
+    const MatrixXd rgb = colour_of_nodes();
     equal.topLeftCorner(3, n) = rgb;
     equal.bottomRightCorner(3, n) = rgb;
     VectorXd wanted = VectorXd::Zero(colours);
@@ -97,7 +89,7 @@ std::array<Spectrum, 3> solve_basis() {
         const double r = std::clamp(x[i], 0.0, 1.0), g = std::clamp(x[n + i], 0.0, 1.0 - r);
         const double values[3] = {r, g, 1 - r - g};
         for (std::size_t c = 0; c < 3; ++c) {
-            basis[c].nm.push_back(basis_first_nm + basis_step_nm * i);
+            basis[c].nm.push_back(node_nm(i));
             basis[c].value.push_back(values[c]);
         }
     }

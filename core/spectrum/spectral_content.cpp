@@ -8,10 +8,16 @@ namespace lueur {
 
 namespace {
 
-constexpr double most_mean = 0.95;    // for a scene that is all white
+constexpr double most_mean = 0.95; // for a scene that is all white
+constexpr double visible_first_nm = 380, visible_last_nm = 780;
 constexpr int all_triples_up_to = 60; // reflectances: 37,820 triples
 
 } // namespace
+
+SpectralContent with_a_light(SpectralContent content) {
+    if (content.lights.empty()) content.lights.push_back({{visible_first_nm, visible_last_nm}, {1, 1}});
+    return content;
+}
 
 std::vector<Spectrum> with_interreflection(std::vector<Spectrum> reflectances) {
     if (reflectances.size() < 2) return reflectances;

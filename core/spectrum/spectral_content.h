@@ -14,6 +14,9 @@ struct SpectralContent {
     bool operator==(const SpectralContent&) const = default;
 };
 
+// A scene without a light is solved under equal energy, 380..780 nm.
+SpectralContent with_a_light(SpectralContent content);
+
 // The reflectances, and, where there is more than one, what is left of light that was reflected by all of them any
 // number of times: m + m^2 + m^3... with m their mean, scaled to end at m. Such light is nearly grey, where colour
 // differences are seen best.

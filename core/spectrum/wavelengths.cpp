@@ -88,12 +88,6 @@ Wavelengths make_points(const WavelengthsSpec& spec, const PointSamples& samples
     return wavelengths;
 }
 
-// A scene without a light is solved under equal energy.
-SpectralContent with_a_light(SpectralContent content) {
-    if (content.lights.empty()) content.lights.push_back({{visible_first_nm, visible_last_nm}, {1, 1}});
-    return content;
-}
-
 template <typename Number>
 Xyz weighted_sum(const Wavelengths& wavelengths, std::span<const Number> channels) {
     Xyz sum(0);

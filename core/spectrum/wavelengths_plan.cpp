@@ -148,8 +148,7 @@ ColourPrediction predict_difference(const Wavelengths& wavelengths, const Spectr
 
 WavelengthsPlan plan_wavelengths(const WavelengthsSpec& spec, const SpectralContent& asked, double target,
                                  const Wavelengths* before) {
-    SpectralContent content = asked;
-    if (content.lights.empty()) content.lights.push_back({{380, 780}, {1, 1}});
+    const SpectralContent content = with_a_light(asked);
     const Truth truth(content);
     const int lights = static_cast<int>(content.lights.size());
     const bool fits = spec.rule != WavelengthRule::folded || lights * spec.count <= max_channels;

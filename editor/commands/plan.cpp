@@ -74,8 +74,7 @@ ScenePlan plan_scene(const Scene& scene) {
     };
     const std::string asked = to_string(scene.solve.wavelengths), used = to_string(plan.plan.wavelengths.spec);
     add_rule(asked == used ? asked : fmt::format("{} ({})", asked, used), plan.plan.wavelengths, plan.plan.prediction);
-    SpectralContent lit = plan.content;
-    if (lit.lights.empty()) lit.lights.push_back(spectrum_of(Luminaire{})); // as the plan: equal energy
+    const SpectralContent lit = with_a_light(plan.content);
     for (const char* rule : fixed_rules) {
         if (rule == asked) continue;
         const Wavelengths wavelengths = make_wavelengths(parse_wavelengths(rule).value(), lit);

@@ -8,13 +8,14 @@
 #include <iterator>
 
 #include "tests/layout/layout_rules.h"
+#include "tests/support/source_folder.h"
 
 namespace lueur {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path root = LUEUR_SOURCE_DIR;
+const fs::path root = test::source_folder();
 
 std::vector<fs::path> files_under(const fs::path& folder) {
     std::vector<fs::path> files;

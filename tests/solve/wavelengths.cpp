@@ -9,6 +9,7 @@
 #include "core/spectrum/observer.h"
 #include "core/spectrum/wavelengths_plan.h"
 #include "tests/support/scenes.h"
+#include "tests/support/source_folder.h"
 
 using namespace lueur;
 
@@ -17,7 +18,7 @@ namespace {
 constexpr WavelengthsSpec automatic{WavelengthRule::automatic, 0}, eighty_one{WavelengthRule::uniform, 81};
 
 Scene cornell_box() {
-    auto loaded = load_scene(std::filesystem::path(LUEUR_SOURCE_DIR) / "assets/cornell.toml");
+    auto loaded = load_scene(test::source_folder() / "assets/cornell.toml");
     EXPECT_TRUE(loaded);
     Scene scene = loaded->scene;
     scene.solve.target_error = 0.05;

@@ -7,6 +7,7 @@
 
 #include "core/spectrum/colour.h"
 #include "core/spectrum/read_spectrum.h"
+#include "tests/support/source_folder.h"
 
 namespace lueur {
 
@@ -56,7 +57,7 @@ inline Spectrum linear_spectrum(const std::string& name) {
                        : name.starts_with("HP")  ? "cie_discharge.csv"
                        : name.starts_with("LED") ? "cie_led.csv"
                                                  : "cie_standard.csv";
-    const auto whole = read_spectrum_csv(std::string(LUEUR_SOURCE_DIR) + "/assets/spectra/" + file, name);
+    const auto whole = read_spectrum_csv((test::source_folder() / "assets/spectra" / file).string(), name);
     if (!whole) throw std::runtime_error(whole.error().front());
     Spectrum visible;
     for (int nm = 380; nm <= 780; nm += 5) {

@@ -9,12 +9,12 @@
 #include "core/spectrum/observer.h"
 #include "core/spectrum/spectral_content.h"
 #include "core/spectrum/spectrum_library.h"
+#include "tests/support/source_folder.h"
 
 namespace lueur {
 
 inline const SpectrumLibrary& spectrum_library() {
-    static const SpectrumLibrary library =
-        list_spectrum_library(std::filesystem::path(LUEUR_SOURCE_DIR) / "assets/spectra").value();
+    static const SpectrumLibrary library = list_spectrum_library(test::source_folder() / "assets/spectra").value();
     return library;
 }
 

@@ -9,12 +9,13 @@
 
 #include "core/spectrum/colour.h"
 #include "core/spectrum/observer.h"
+#include "tests/support/source_folder.h"
 
 namespace lueur {
 namespace {
 
 SpectrumLibrary library() {
-    auto listed = list_spectrum_library(std::filesystem::path(LUEUR_SOURCE_DIR) / "assets/spectra");
+    auto listed = list_spectrum_library(test::source_folder() / "assets/spectra");
     if (listed) return std::move(*listed);
     for (const std::string& error : listed.error()) ADD_FAILURE() << error;
     return {};

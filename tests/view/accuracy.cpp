@@ -12,6 +12,7 @@
 #include "core/view/picture.h"
 #include "core/view/spectral_picture.h"
 #include "tests/support/scenes.h"
+#include "tests/support/source_folder.h"
 #include "tests/support/surface_points.h"
 
 using namespace lueur;
@@ -48,7 +49,7 @@ Errors relative_errors(const std::vector<Irradiance>& values, const std::vector<
 // 1,000 random surface points of the measured Cornell box: 5 % RMS, 1.5 % median, both for what the window shows and
 // for gathering at points.
 TEST(Accuracy, CornellBoxAgainstTracedPaths) {
-    auto loaded = load_scene(std::filesystem::path(LUEUR_SOURCE_DIR) / "assets/cornell.toml");
+    auto loaded = load_scene(test::source_folder() / "assets/cornell.toml");
     ASSERT_TRUE(loaded) << loaded.error().front();
     Solution solution(std::make_shared<const Scene>(loaded->scene));
     test::settle(solution);
