@@ -28,6 +28,8 @@ std::string to_string(PictureQuantity quantity) {
         return "luminance";
     case PictureQuantity::illuminance:
         return "illuminance";
+    case PictureQuantity::colour_difference:
+        return "colour_difference";
     }
     return {};
 }
@@ -141,7 +143,8 @@ std::expected<PictureRecipe, std::string> recipe_from_metadata(const ImageMetada
     if (const auto* name = words.find("scene_name")) recipe.scene_name = *name;
     if (const auto path = metadata.find("lueur:scene_path"); path != metadata.end()) recipe.scene_file = path->second;
     words.choice("quantity", recipe.quantity,
-                 {PictureQuantity::colour, PictureQuantity::luminance, PictureQuantity::illuminance});
+                 {PictureQuantity::colour, PictureQuantity::luminance, PictureQuantity::illuminance,
+                  PictureQuantity::colour_difference});
     words.choice("solver", recipe.solve.solver, {SolverKind::gathering, SolverKind::shooting});
     if (const auto* text = words.find("wavelengths")) {
         if (const auto spec = parse_wavelengths(*text))
