@@ -8,7 +8,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "core/solve/best_vectors.h"
+#include "core/solve/matrix_products.h"
 #include "core/spectrum/wavelengths.h"
 #include "core/transport/time_slice.h"
 
@@ -16,74 +16,8 @@ namespace lueur {
 
 namespace {
 
-constexpr std::uint32_t rows_at_once = 4;  // share what is read of x
 constexpr std::uint32_t gauss_block = 64;  // rows whose sums over all other columns are taken together
 constexpr double brightest_ambient = 0.98; // mean reflectance above which 1 / (1 - rho_ave) is capped
-
-// Four channels as one register; written out, for the compiler would sum channel by channel in memory.
-using Lanes [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
-
-// out[k] += sum over [first, last) of F_(i+k)j x_j, eight channels from `channel`.
-template <int Rows>
-[[gnu::always_inline]] inline void add_products(const FormFactorMatrix& f, std::uint32_t i, std::uint32_t first,
-                                                std::uint32_t last, const PatchField& x, int channel,
-                                                double* const (&out)[Rows]) {
-    const float* row[Rows];
-    Lanes low[Rows] = {}, high[Rows] = {};
-    for (int k = 0; k < Rows; ++k) row[k] = f.row(i + static_cast<std::uint32_t>(k));
-    const std::size_t stride = static_cast<std::size_t>(x.stride);
-    const double* values = x.values.data() + channel;
-    for (std::uint32_t j = first; j < last; ++j) {
-        const auto* from = reinterpret_cast<const Lanes*>(values + j * stride);
-        const Lanes a = from[0], b = from[1];
-        for (int k = 0; k < Rows; ++k) {
-            const double factor = row[k][j];
-            low[k] += factor * a;
-            high[k] += factor * b;
-        }
-    }
-    for (int k = 0; k < Rows; ++k) {
-        auto* to = reinterpret_cast<Lanes*>(out[k] + channel);
-        to[0] += low[k];
-        to[1] += high[k];
-    }
-}
-
-// out_i += sum over columns [first, last) for rows [begin, end); row i's sums at out(i).
-template <typename Out>
-[[gnu::always_inline]] inline void add_rows(const FormFactorMatrix& f, std::uint32_t begin, std::uint32_t end,
-                                            std::uint32_t first, std::uint32_t last, const PatchField& x,
-                                            const Out& out) {
-    std::uint32_t i = begin;
-    for (; i + rows_at_once <= end; i += rows_at_once) {
-        double* const to[rows_at_once] = {out(i), out(i + 1), out(i + 2), out(i + 3)};
-        for (int c = 0; c < x.stride; c += 8) add_products<rows_at_once>(f, i, first, last, x, c, to);
-    }
-    for (; i < end; ++i) {
-        double* const to[1] = {out(i)};
-        for (int c = 0; c < x.stride; c += 8) add_products<1>(f, i, first, last, x, c, to);
-    }
-}
-
-LUEUR_BEST_VECTORS void add_all_columns(const FormFactorMatrix& f, std::uint32_t begin, std::uint32_t end,
-                                        const PatchField& x, PatchField& out) {
-    add_rows(f, begin, end, 0, f.n, x, [&](std::uint32_t i) { return out[i]; });
-}
-
-// Columns before and after a block; row i at left/right + (i - block) * stride.
-LUEUR_BEST_VECTORS void add_outside(const FormFactorMatrix& f, std::uint32_t begin, std::uint32_t end,
-                                    std::uint32_t block, std::uint32_t block_end, const PatchField& x, double* left,
-                                    double* right) {
-    const std::size_t stride = static_cast<std::size_t>(x.stride);
-    add_rows(f, begin, end, 0, block, x, [&](std::uint32_t i) { return left + (i - block) * stride; });
-    add_rows(f, begin, end, block_end, f.n, x, [&](std::uint32_t i) { return right + (i - block) * stride; });
-}
-
-// Columns [first, last) of one row.
-LUEUR_BEST_VECTORS void add_part(const FormFactorMatrix& f, std::uint32_t i, std::uint32_t first, std::uint32_t last,
-                                 const PatchField& x, double* sum) {
-    add_rows(f, i, i + 1, first, last, x, [&](std::uint32_t) { return sum; });
-}
 
 } // namespace
 
@@ -173,7 +107,7 @@ bool MatrixSystem::jacobi_sweep(const std::atomic<bool>& cancel) {
     const std::uint32_t n = matrix_->n;
     if (cursor_ == 0) next_ = PatchField(n, channels_);
     if (!run_slice(cursor_, n, 4 * rows_at_once, cancel,
-                   [&](std::uint32_t first, std::uint32_t last) { add_all_columns(*matrix_, first, last, b_, next_); }))
+                   [&](std::uint32_t first, std::uint32_t last) { multiply_rows(*matrix_, first, last, b_, next_); }))
         return false;
     cursor_ = 0;
     std::swap(x_, b_); // b is made anew below
@@ -204,15 +138,15 @@ bool MatrixSystem::gauss_seidel_sweep(const std::atomic<bool>& cancel) {
         std::vector<double> left(gauss_block * stride, 0.0), right(gauss_block * stride, 0.0);
         tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, (end - block + rows_at_once - 1) / rows_at_once),
                           [&](const tbb::blocked_range<std::uint32_t>& range) {
-                              add_outside(*matrix_, block + range.begin() * rows_at_once,
-                                          std::min(end, block + range.end() * rows_at_once), block, end, x_,
-                                          left.data(), right.data());
+                              multiply_outside(*matrix_, block + range.begin() * rows_at_once,
+                                               std::min(end, block + range.end() * rows_at_once), block, end, x_,
+                                               left.data(), right.data());
                           });
         for (std::uint32_t i = block; i < end; ++i) {
             double* before = left.data() + (i - block) * stride;
             double* after = right.data() + (i - block) * stride;
-            add_part(*matrix_, i, block, i, x_, before);
-            add_part(*matrix_, i, i + 1, end, x_, after);
+            multiply_part(*matrix_, i, block, i, x_, before);
+            multiply_part(*matrix_, i, i + 1, end, x_, after);
             const double own = matrix_->row(i)[i];
             for (int c = 0; c < channels_; ++c) {
                 // The residual of the iterate before this sweep: what lies left of i as it was then, was summed then.
@@ -232,38 +166,6 @@ bool MatrixSystem::gauss_seidel_sweep(const std::atomic<bool>& cancel) {
     left_known_ = true;
     return true;
 }
-
-namespace {
-
-// The shot itself, all patches and channels. l1_change: of sum_i A_i |r_i|; sent_on: sum_i A_i rho_i F_ij.
-LUEUR_BEST_VECTORS double send_column(const FormFactorMatrix& f, std::uint32_t j, const double* amount,
-                                      const float* weight, const PatchField& rho, PatchField& h, PatchField& r,
-                                      std::vector<double>& flux, double* l1_change, double* sent_on) {
-    const int stride = rho.stride;
-    const float* column = f.values.data() + j;
-    double flux_change = 0;
-    for (std::uint32_t i = 0; i < f.n; ++i) {
-        const double factor = column[std::size_t(i) * f.n];
-        if (factor == 0) continue;
-        const double area = f.area[i];
-        const double* rho_i = rho[i];
-        double *h_i = h[i], *r_i = r[i];
-        double new_flux = 0;
-        for (int c = 0; c < stride; ++c) {
-            const double before = r_i[c], reflected = rho_i[c] * factor;
-            h_i[c] += factor * amount[c];
-            r_i[c] = before + reflected * amount[c];
-            l1_change[c] += area * (std::abs(r_i[c]) - std::abs(before));
-            sent_on[c] += area * reflected;
-            new_flux += weight[c] * std::abs(r_i[c]);
-        }
-        flux_change += area * new_flux - flux[i];
-        flux[i] = area * new_flux;
-    }
-    return flux_change;
-}
-
-} // namespace
 
 double MatrixSystem::send(std::uint32_t j, const double* amount, double* l1_change, double* sent_on) {
     std::array<float, max_channels + 8> weight{};

@@ -16,24 +16,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/solve/form_factor_matrix.h"
+#include "core/solve/matrix_products.h"
 
 namespace lueur {
-
-// A value a patch and channel; channels padded with zeros to whole vector registers.
-struct PatchField {
-    std::uint32_t count = 0;
-    int stride = 8;
-    std::vector<double> values;
-
-    PatchField() = default;
-    PatchField(std::uint32_t n, int channels)
-        : count(n)
-        , stride((channels + 7) / 8 * 8)
-        , values(std::size_t(n) * stride, 0.0) {}
-    double* operator[](std::uint32_t i) { return values.data() + std::size_t(i) * stride; }
-    const double* operator[](std::uint32_t i) const { return values.data() + std::size_t(i) * stride; }
-};
 
 class MatrixSystem {
 public:
