@@ -40,12 +40,11 @@ bool fill_rows(FormFactorMatrix& matrix, const PatchScene& patches, FormFactorMe
 // beside a shared edge, gives more, and with a reflectance near 1 no sweep would converge. Such rows are scaled down to
 // 1; others are left alone, for their light may leave the scene.
 struct RowSums {
+    std::vector<double> sum;  // of each row, as it is now
     std::uint32_t above = 0;  // rows that were scaled
     double largest = 0;       // as the method gave them
     std::uint32_t broken = 0; // rows with a number that is negative or not finite: those numbers are set to 0
 };
 RowSums limit_row_sums(FormFactorMatrix& matrix);
-
-double row_sum(const FormFactorMatrix& matrix, std::uint32_t i);
 
 } // namespace lueur

@@ -229,12 +229,12 @@ bool MatrixSystem::shoot(bool over) {
     return true;
 }
 
-bool has_no_finite_solution(const FormFactorMatrix& matrix, const PatchField& rho, const PatchField& exitance,
-                            int channels) {
+bool has_no_finite_solution(const FormFactorMatrix& matrix, const RowSums& sums, const PatchField& rho,
+                            const PatchField& exitance, int channels) {
     constexpr double absorbs = 1e-7, leaks = 1e-5; // of float reflectances, and of rows that are sums of n floats
     const std::uint32_t n = matrix.n;
     std::vector<std::uint8_t> open(n); // light of these leaves the scene
-    for (std::uint32_t i = 0; i < n; ++i) open[i] = row_sum(matrix, i) < 1 - leaks;
+    for (std::uint32_t i = 0; i < n; ++i) open[i] = sums.sum[i] < 1 - leaks;
     for (int c = 0; c < channels; ++c) {
         std::vector<std::uint8_t> loses(n);
         std::vector<std::uint32_t> queue;

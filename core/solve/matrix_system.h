@@ -83,7 +83,7 @@ private:
 
 // In a part of the scene that keeps all its light the radiosity grows without end. True when some patch that emits,
 // in some channel, can reach only patches with rho = 1 and row sums of 1.
-bool has_no_finite_solution(const FormFactorMatrix& matrix, const PatchField& rho, const PatchField& exitance,
-                            int channels);
+bool has_no_finite_solution(const FormFactorMatrix& matrix, const RowSums& sums, const PatchField& rho,
+                            const PatchField& exitance, int channels);
 
 } // namespace lueur

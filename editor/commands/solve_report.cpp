@@ -43,6 +43,7 @@ std::string report_json(const std::string& command, const BatchParams& params, c
     report["stage_seconds"] = stages;
     report["solve_seconds"] = solved.seconds;
     report["rays"] = status.rays;
+    report["form_factor_cost"] = status.form_factor_cost;
     report["rays_per_receiver"] = status.rays_per_receiver;
     report["rows"] = status.receivers;
     report["row_entries"] = status.row_entries;

@@ -49,7 +49,7 @@ TEST(MatrixSolution, AllGiveTheSameRadiositiesOnTheSameFormFactors) {
     Solution solution(std::make_shared<const Scene>(coarse_room(SolverKind::jacobi)));
     test::settle(solution);
     ASSERT_TRUE(solution.status().settled) << solution.status().message;
-    const std::uint64_t rays = solution.status().rays;
+    const std::uint64_t cost = solution.status().form_factor_cost;
     Scene scene = *solution.scene();
     scene.solve.target_error = 1e-7; // of which flux unshot may take a part
     std::vector<double> first;
@@ -59,7 +59,7 @@ TEST(MatrixSolution, AllGiveTheSameRadiositiesOnTheSameFormFactors) {
         solution.update(std::make_shared<const Scene>(scene), SolveFrom::reflectance);
         test::settle(solution);
         ASSERT_TRUE(solution.status().settled) << solution.status().message;
-        EXPECT_EQ(solution.status().rays, rays) << "the matrix is kept from solver to solver";
+        EXPECT_EQ(solution.status().form_factor_cost, cost) << "the matrix is kept from solver to solver";
         const PatchField& h = solution.state().patch_solve.system.irradiance();
         if (first.empty()) {
             first = h.values;
@@ -124,7 +124,7 @@ TEST(MatrixSolution, RandomEditsSettleWhereAFreshSolveDoesAndTraceNoRay) {
         test::settle(edited);
         const Solution fresh = test::solved(scene);
         ASSERT_TRUE(edited.status().settled) << edited.status().message;
-        EXPECT_EQ(edited.status().rays, fresh.status().rays);
+        EXPECT_EQ(edited.status().form_factor_cost, fresh.status().form_factor_cost);
         EXPECT_LT(test::field_difference(*edited.field(), *fresh.field()), 1e-3) << to_string(edited.status().stage);
     }
 }
@@ -178,12 +178,12 @@ TEST(MatrixSolution, ReflectancesTooCloseToOne) {
         EXPECT_THAT(solution.status().message, testing::StartsWith("no finite solution"));
         EXPECT_EQ(solution.status().sweeps + solution.status().shots, 0u) << "said before the first sweep";
         // Nor does it end for good: a darker paint is solved, without a ray.
-        const std::uint64_t rays = solution.status().rays;
+        const std::uint64_t cost = solution.status().form_factor_cost;
         for (auto& material : scene.materials) material.reflectance = 0.5;
         solution.update(std::make_shared<const Scene>(scene), SolveFrom::reflectance);
         test::settle(solution);
         EXPECT_TRUE(solution.status().settled) << solution.status().message;
-        EXPECT_EQ(solution.status().rays, rays);
+        EXPECT_EQ(solution.status().form_factor_cost, cost);
     }
     Scene scene = test::furnace(1 - 1e-6);
     scene.solve.solver = SolverKind::jacobi;
