@@ -34,6 +34,7 @@ TEST(MatrixSolution, FurnaceByEverySolver) {
             Scene scene = test::furnace(rho);
             scene.solve.solver = solver;
             scene.solve.element_size = 0.5;
+            scene.solve.target_error = 0.005;
             scene.solve.form_factors = FormFactorMethod::hemisphere;
             const Solution solution = test::solved(scene);
             ASSERT_TRUE(solution.status().settled) << solution.status().message;
