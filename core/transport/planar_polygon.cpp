@@ -182,7 +182,7 @@ std::vector<SubElement> sub_elements(const PlanarPolygon& polygon, int count) {
     const auto& p = polygon.corners;
     std::vector<SubElement> elements;
     if (count <= 1) {
-        elements.push_back({centre(polygon), polygon.area, 2 * radius(polygon)});
+        elements.push_back({centre(polygon), polygon.area, 2 * radius(polygon), polygon.corners});
         return elements;
     }
     if (p.size() == 4) { // cells of the bilinear map, as square as they come
@@ -202,7 +202,7 @@ std::vector<SubElement> sub_elements(const PlanarPolygon& polygon, int count) {
                 if (!(area > 0)) continue;
                 const double size = std::max(glm::length(cell.corners[2] - cell.corners[0]),
                                              glm::length(cell.corners[3] - cell.corners[1]));
-                elements.push_back({centre(cell), area, size});
+                elements.push_back({centre(cell), area, size, cell.corners});
             }
         return elements;
     }
@@ -231,8 +231,10 @@ std::vector<SubElement> sub_elements(const PlanarPolygon& polygon, int count) {
     }
     for (const Triangle& t : triangles)
         if (const double area = area_of(t); area > 0)
-            elements.push_back({(t.a + t.b + t.c) / 3.0, area,
-                                std::sqrt(std::max({squared(t.b - t.a), squared(t.c - t.b), squared(t.a - t.c)}))});
+            elements.push_back({(t.a + t.b + t.c) / 3.0,
+                                area,
+                                std::sqrt(std::max({squared(t.b - t.a), squared(t.c - t.b), squared(t.a - t.c)})),
+                                {t.a, t.b, t.c}});
     return elements;
 }
 
