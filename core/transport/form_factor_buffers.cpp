@@ -27,11 +27,12 @@ Placement placement(const PlanarPolygon& polygon, int k, int count, std::uint64_
 // `pixel`: the largest form factor of one; what no buffer has seen may still be that large. Where the patches are
 // nearer than the points are to each other, one point more or less beside the other patch is a step of its whole value.
 MethodEstimate mean_of(const PolygonPair& pair, const std::vector<double>& values, double pixel, std::uint64_t cost) {
-    const auto n = static_cast<double>(values.size());
+    const auto n = std::max(1.0, static_cast<double>(values.size()));
     double sum = 0, squares = 0;
     for (const double value : values) sum += value;
     const double mean = sum / n;
     for (const double value : values) squares += (value - mean) * (value - mean);
+    if (values.empty()) return {};
     if (values.size() < 2) return {mean, -1, cost};
     const double spacing = 2 * radius(pair.from) / std::sqrt(n);
     const double step = std::max(0.0, 1 - distance(pair.from, pair.to) / spacing) * std::ranges::max(values) / n;
@@ -59,7 +60,7 @@ MethodEstimate hemicube(const PolygonPair& pair, const FormFactorSettings& setti
     Hemicube cube(settings.resolution);
     std::vector<double> values;
     std::uint64_t cost = 0;
-    for (int k = 0; k < settings.samples; ++k) {
+    for (int k = 0; k < settings.samples && !settings.is_cancelled(); ++k) {
         const Placement at = placement(pair.from, k, settings.samples, settings.seed);
         cube.place(at.eye, pair.from.normal, at.turn);
         cube.draw(pair.to.corners, pair.to.normal, 0);
@@ -85,7 +86,7 @@ MethodEstimate hemisphere(const PolygonPair& pair, const FormFactorSettings& set
     std::vector<double> values;
     std::uint64_t cost = 0;
     double largest = 0;
-    for (int k = 0; k < settings.samples; ++k) {
+    for (int k = 0; k < settings.samples && !settings.is_cancelled(); ++k) {
         const Placement at = placement(pair.from, k, settings.samples, settings.seed);
         const Axes axes(pair.from.normal, at.turn);
         RandomStream random(settings.seed, static_cast<std::uint64_t>(k) + 0x10000);

@@ -65,6 +65,7 @@ MethodEstimate point_to_disk(const PolygonPair& pair, const FormFactorSettings& 
     ElementSum sum;
     const auto shooters = sub_elements(pair.to, settings.samples);
     for (const SubElement& i : sub_elements(pair.from, settings.samples)) {
+        if (settings.is_cancelled()) break;
         double all = 0, seen = 0, error = 0;
         for (const SubElement& j : shooters) {
             ++sum.cost;
@@ -92,6 +93,7 @@ MethodEstimate area_sampled(const PolygonPair& pair, const FormFactorSettings& s
         return std::clamp(lambert_sum(point, pair.from.normal, pair.to.corners).value, 0.0, 1.0);
     };
     for (const SubElement& i : sub_elements(pair.from, settings.samples)) {
+        if (settings.is_cancelled()) break;
         const double middle = lambert(i.centre), weight = i.area / pair.from.area;
         double corners = 0;
         for (const glm::dvec3& corner : i.corners) corners += lambert(corner);
@@ -119,6 +121,7 @@ MethodEstimate monte_carlo(const PolygonPair& pair, const FormFactorSettings& se
     RandomStream random(settings.seed, 0);
     double sum = 0, squares = 0, most = 0;
     for (int k = 0; k < settings.samples; ++k) {
+        if (k % 4096 == 0 && settings.is_cancelled()) break;
         const glm::dvec3 x = polygon_point(pair.from, random.next2()), y = polygon_point(pair.to, random.next2());
         double f = pair.to.area * disk_kernel(pair, x, y, 0);
         if (f > 0 && !is_visible(pair, x, y)) f = 0;
@@ -137,8 +140,9 @@ MethodEstimate monte_carlo(const PolygonPair& pair, const FormFactorSettings& se
 MethodEstimate analytic(const PolygonPair& pair, const FormFactorSettings& settings) {
     if (!pair.occluders.world && pair.occluders.polygons.size() <= most_exact_occluders &&
         !pair.occluders.polygons.empty()) {
-        const ExactFormFactor exact = occluded_form_factor(pair.from, pair.to, pair.occluders.polygons, 1e-6,
-                                                           static_cast<std::uint64_t>(settings.samples));
+        const ExactFormFactor exact =
+            occluded_form_factor(pair.from, pair.to, pair.occluders.polygons, 1e-6,
+                                 static_cast<std::uint64_t>(settings.samples), settings.cancel);
         return {exact.value, exact.bound, exact.evaluations};
     }
     const ExactFormFactor exact = exact_form_factor(pair.from, pair.to);
@@ -155,6 +159,7 @@ MethodEstimate analytic(const PolygonPair& pair, const FormFactorSettings& setti
         const glm::dvec4 offset(random.next2(), random.next2());
         double set_all = 0, set_seen = 0;
         for (int k = 0; k < each; ++k) {
+            if (k % 4096 == 0 && settings.is_cancelled()) break;
             constexpr double g = 1.0 / 1.1673039782614187;
             const glm::dvec4 p = offset + (k + 0.5) * glm::dvec4(g, g * g, g * g * g, g * g * g * g);
             const glm::dvec4 u = p - glm::floor(p);

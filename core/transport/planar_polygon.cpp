@@ -81,6 +81,7 @@ std::expected<PlanarPolygon, std::string> make_planar_polygon(std::vector<glm::d
         return std::unexpected(std::string("has no area; a polygon that is not a line or a point is allowed"));
     polygon.normal = vector / polygon.area;
     const std::size_t n = polygon.corners.size();
+    double turned = 0;
     for (std::size_t k = 0; k < n; ++k) {
         const glm::dvec3 p = polygon.corners[k], next = polygon.corners[(k + 1) % n],
                          after = polygon.corners[(k + 2) % n];
@@ -90,7 +91,11 @@ std::expected<PlanarPolygon, std::string> make_planar_polygon(std::vector<glm::d
         if (glm::dot(glm::cross(next - p, after - next), polygon.normal) <
             -1e-6 * glm::length(next - p) * glm::length(after - next))
             return std::unexpected(std::string("is not convex; cut it into convex polygons"));
+        const glm::dvec3 turn = glm::cross(next - p, after - next);
+        turned += std::atan2(glm::dot(turn, polygon.normal), glm::dot(next - p, after - next));
     }
+    if (turned > 6.3 * 1.01)
+        return std::unexpected(std::string("goes around more than once; a convex polygon is allowed"));
     return polygon;
 }
 
