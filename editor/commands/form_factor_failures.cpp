@@ -20,7 +20,7 @@ PlanarPolygon polygon(std::vector<glm::dvec3> corners) {
     return make_planar_polygon(std::move(corners)).value();
 }
 
-std::string quoted(std::string_view text) { // a CSV field
+std::string csv_text(std::string_view text) { // a CSV field
     return text.find_first_of(",\"") == text.npos ? std::string(text) : fmt::format("\"{}\"", text);
 }
 
@@ -134,10 +134,10 @@ int write_form_factor_failures(const FormFactorsCommand& command, BatchSession& 
                 form_factor(one.polygon1, one.polygon2, {one.occluders, nullptr}, method, settings);
             if (session.cancel()) return exit_interrupted;
             const double off = std::abs(found.value - exact.value) / unit;
-            csv += fmt::format("{},{},{:.12g},{:.12g},{:.3g},{},{},{:.3g},{}\n", quoted(one.name), to_string(method),
+            csv += fmt::format("{},{},{:.12g},{:.12g},{:.3g},{},{},{:.3g},{}\n", csv_text(one.name), to_string(method),
                                exact.value, found.value, 100 * off,
                                found.standard_error < 0 ? "" : fmt::format("{:.3g}", 100 * found.standard_error / unit),
-                               found.cost, 1e3 * found.seconds, quoted(found.warning));
+                               found.cost, 1e3 * found.seconds, csv_text(found.warning));
             table += fmt::format("{:>15.2g}{}", off, found.warning.empty() ? ' ' : '*');
         }
         table += '\n';
