@@ -37,22 +37,24 @@ struct ElementSum {
 };
 
 // A shadow's edge goes through sub-elements of j (its share is a sample) and lies between those of i (the shares are).
-double shadow_variance(const ElementSum& sum) {
-    double whole = 0, seen = 0, variance = 0;
+// The rays of a regular grid meet an occluder together or not at all: the former do not average out over i.
+double shadow_error(const ElementSum& sum) {
+    double whole = 0, seen = 0, along = 0, between = 0;
     for (const auto& part : sum.parts) {
         whole += part.whole;
         seen += part.whole * part.share;
     }
     if (!(whole > 0)) return 0;
     for (const auto& part : sum.parts) {
-        const double deviation = part.share - seen / whole;
-        variance += part.whole * part.whole * (share_variance(part.share, part.targets) + deviation * deviation);
+        const double deviation = part.whole * (part.share - seen / whole);
+        along += part.whole * std::sqrt(share_variance(part.share, part.targets));
+        between += deviation * deviation;
     }
-    return variance;
+    return std::sqrt(along * along + between);
 }
 
 MethodEstimate estimate_of(const PolygonPair& pair, const ElementSum& sum) {
-    const double shadows = pair.may_be_occluded() ? std::sqrt(shadow_variance(sum)) : 0;
+    const double shadows = pair.may_be_occluded() ? shadow_error(sum) : 0;
     return {sum.value, sum.error + shadows + 1e-15, sum.cost};
 }
 
