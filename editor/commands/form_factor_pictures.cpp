@@ -121,9 +121,9 @@ std::optional<std::string> aliasing_svg(const FormFactorSettings& given, BatchSe
         panel.y = {"form factor / true", 0, size < 1 ? 5.0 : 2.5, true};
         panel.level = 1;
         panel.curves.resize(std::size(looks));
-        for (int k = 0; k <= 160; ++k) {
+        for (int k = 0; k <= 120; ++k) {
             session.bar().show("pictures", 0.9, "aliasing");
-            const double moved = k / 40.0;
+            const double moved = k / 30.0;
             one.polygon2 = rectangle_above((moved + 3.1) * pixel, 2.3 * pixel, 1, size * pixel, size * pixel);
             const TrueFormFactor exact = true_form_factor(one, given.cancel);
             for (std::size_t l = 0; l < std::size(looks); ++l) {
