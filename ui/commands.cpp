@@ -7,12 +7,13 @@
 namespace lueur {
 namespace {
 
-constexpr std::array<CommandInfo, 26> table{{
+constexpr std::array<CommandInfo, 27> table{{
     {Command::open, "Open...", "Ctrl+O"},
     {Command::save, "Save", "Ctrl+S"},
     {Command::save_as, "Save as...", "Ctrl+Shift+S"},
     {Command::screenshot, "Save picture", "F12 or P"},
     {Command::screenshot_as, "Save picture as...", "Shift+P"},
+    {Command::spectral_picture_as, "Save spectral picture as...", ""},
     {Command::quit, "Quit", "Ctrl+Q"},
     {Command::undo, "Undo", "Ctrl+Z"},
     {Command::redo, "Redo", "Ctrl+Y"},

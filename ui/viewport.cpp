@@ -61,7 +61,7 @@ void legend(const UiState& state, const ViewportState& view, const DisplaySettin
         return;
     }
     case ViewMode::difference:
-        draw_legend(state, x, y, "Colour difference spectral - RGB, CIEDE2000", difference_scale());
+        draw_legend(state, x, y, "Colour difference spectral - RGB, CIEDE2000", colour_difference_scale());
         return;
     case ViewMode::unshot:
         draw_legend(state, x, y, "Unshot light, lm/m²", unshot_scale(state.unshot_top));
