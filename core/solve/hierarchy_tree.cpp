@@ -28,8 +28,8 @@ void measure(const ElementTree& tree, ElementNode& node) {
         node.centre += tree.vertices[node.corners[static_cast<std::size_t>(k)]] / static_cast<float>(count);
     node.radius = 0;
     for (int k = 0; k < count; ++k)
-        node.radius = std::max(
-            node.radius, glm::distance(node.centre, tree.vertices[node.corners[static_cast<std::size_t>(k)]]));
+        node.radius =
+            std::max(node.radius, glm::distance(node.centre, tree.vertices[node.corners[static_cast<std::size_t>(k)]]));
     const glm::vec3 area = twice_area_vector(tree, node);
     const float length = glm::length(area);
     node.area = length / 2;
@@ -71,16 +71,14 @@ std::vector<std::uint32_t> pair_triangles(const Scene& scene, const Mesh& mesh) 
     const auto normal_of = [&](std::uint32_t e) {
         const glm::uvec3 v = mesh.nodes[e].vertices;
         const glm::vec3 a = mesh.vertices[v.x].position;
-        return glm::normalize(
-            glm::cross(mesh.vertices[v.y].position - a, mesh.vertices[v.z].position - a));
+        return glm::normalize(glm::cross(mesh.vertices[v.y].position - a, mesh.vertices[v.z].position - a));
     };
     for (std::uint32_t e = 0; e < mesh.coarse_element_count; ++e) {
         if (!scene.geometry->surfaces[mesh.coarse_surface[e]].planar) continue;
         const glm::uvec3 v = mesh.nodes[e].vertices;
         for (int k = 0; k < 3; ++k) {
-            auto& both =
-                at_edge.try_emplace(Bisection::edge_key(v[k], v[(k + 1) % 3]), std::array{no_index, no_index})
-                    .first->second;
+            auto& both = at_edge.try_emplace(Bisection::edge_key(v[k], v[(k + 1) % 3]), std::array{no_index, no_index})
+                             .first->second;
             (both[0] == no_index ? both[0] : both[1]) = e;
         }
     }
@@ -241,8 +239,8 @@ private:
         cluster.normal = length > 1e-3 * area ? glm::vec3(sum / length) : glm::vec3(0);
         cluster.flatness = 1;
         for (std::uint32_t k = cluster.first_root; k < cluster.first_root + cluster.root_count; ++k)
-            cluster.flatness = std::min(cluster.flatness,
-                                        glm::dot(tree_.nodes[tree_.root_order[k]].normal, cluster.normal));
+            cluster.flatness =
+                std::min(cluster.flatness, glm::dot(tree_.nodes[tree_.root_order[k]].normal, cluster.normal));
     }
 
     const Scene& scene_;
@@ -325,7 +323,8 @@ void cut_element(ElementTree& tree, std::uint32_t n) {
 std::uint32_t leaf_under(const ElementTree& tree, std::uint32_t root, glm::vec3 point) {
     std::uint32_t n = root;
     while (!tree.nodes[n].is_leaf()) {
-        // Children are parted by straight lines (of a bilinear quadrilateral too): the one that the point is deepest in.
+        // Children are parted by straight lines (of a bilinear quadrilateral too): the one that the point is deepest
+        // in.
         float best = -1e30f;
         std::uint32_t inside = tree.nodes[n].children[0];
         for (const std::uint32_t child : tree.nodes[n].children) {

@@ -41,12 +41,12 @@ struct ElementNode {
 
 struct ElementTree {
     std::vector<glm::vec3> vertices;
-    std::vector<ElementNode> nodes;                               // roots, then clusters, then what roots were cut into
+    std::vector<ElementNode> nodes; // roots, then clusters, then what roots were cut into
     std::uint32_t root_count = 0, cluster_count = 0;
-    std::uint32_t top = no_index;                                 // the cluster over all; none: no_index
-    std::vector<std::array<std::uint32_t, 2>> root_of_triangle;   // of a scene triangle: front and back root
-    std::vector<std::uint32_t> root_order;                        // so that a cluster's roots stand together
-    std::vector<double> root_area_before;                         // running sum of areas in that order, one more than roots
+    std::uint32_t top = no_index;                               // the cluster over all; none: no_index
+    std::vector<std::array<std::uint32_t, 2>> root_of_triangle; // of a scene triangle: front and back root
+    std::vector<std::uint32_t> root_order;                      // so that a cluster's roots stand together
+    std::vector<double> root_area_before; // running sum of areas in that order, one more than roots
     std::unordered_map<std::uint64_t, std::uint32_t> edge_middle; // of an edge between two vertices
 
     // Calls f(node) for all nodes, parents first.
@@ -83,8 +83,8 @@ SurfacePoint point_on(const ElementTree& tree, std::uint32_t node, glm::vec2 u);
 // Weights of an element's corners at a point of it: barycentric, or bilinear in a quadrilateral. They sum to 1.
 std::array<float, 4> corner_weights(const ElementTree& tree, std::uint32_t node, glm::vec3 point);
 
-// The vertices of neighbours that lie on the edge from a to b, in order: where a neighbour is cut finer, its corners are
-// T-vertices of this element.
+// The vertices of neighbours that lie on the edge from a to b, in order: where a neighbour is cut finer, its corners
+// are T-vertices of this element.
 void vertices_on_edge(const ElementTree& tree, std::uint32_t a, std::uint32_t b, std::vector<std::uint32_t>& between);
 
 } // namespace lueur

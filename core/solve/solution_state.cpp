@@ -35,11 +35,16 @@ bool Solution::State::luminaire_is_lit(std::size_t luminaire) const {
     case SolverKind::overshooting:
     case SolverKind::jacobi:
     case SolverKind::gauss_seidel:
-    case SolverKind::hierarchical:
     case SolverKind::reference:
         return true;
+    case SolverKind::hierarchical:
+        return direct_light_apart();
     }
     return true;
+}
+
+bool Solution::State::direct_light_apart() const {
+    return solver() != SolverKind::hierarchical || scene->solve.oracle == RefinementOracle::error;
 }
 
 const ChannelField& Solution::State::indirect() const {
