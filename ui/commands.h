@@ -27,6 +27,8 @@ enum class Command {
     home,
     toggle_panels,
     toggle_probe,
+    toggle_links,
+    toggle_levels,
     deselect,
     pause,
     step,

@@ -194,6 +194,9 @@ std::shared_ptr<const Mesh> Solution::mesh() const {
 std::shared_ptr<const World> Solution::world() const {
     return state_->world;
 }
+std::shared_ptr<const HierarchyView> Solution::hierarchy() const {
+    return state_->solver() == SolverKind::hierarchical ? state_->hierarchy_view : nullptr;
+}
 std::shared_ptr<const Field> Solution::field() const {
     return state_->published_mesh ? compose_field(*state_) : nullptr;
 }

@@ -8,6 +8,7 @@
 #include "core/solve/gather_system.h"
 #include "core/solve/hierarchy.h"
 #include "core/solve/hierarchy_field.h"
+#include "core/solve/hierarchy_final.h"
 #include "core/solve/hierarchy_view.h"
 #include "core/solve/shooting.h"
 #include "core/solve/solution.h"
@@ -56,7 +57,14 @@ struct Solution::State {
     ChannelField indirect_irradiance; // gathered_direct + W U at the coarse vertices, refreshed after sweeps
     Shooting shooting;
     std::unique_ptr<Hierarchy> hierarchy;
-    std::vector<LeafReading> leaf_readings;              // of the mesh's vertices
+    enum class ShowLeaves { no, cut, light, read, values };
+    ShowLeaves show_leaves = ShowLeaves::no; // which part of it is going on
+    std::unique_ptr<LeafMesh> leaf_mesh;     // cuts `mesh`, from the first round on
+    std::uint32_t shown_round = 0;
+    std::unique_ptr<FinalGather> final_gather;           // at the mesh's vertices, of the links of this round:
+    std::uint32_t final_round = 0;                       //
+    bool final_done = false;                             // all its rays are traced
+    std::vector<glm::vec3> vertex_origins;               // of all vertices of the mesh
     std::shared_ptr<const HierarchyView> hierarchy_view; // as of the last round of refinement
     bool solving = false;                                // system or shooting hold this scene's sources
     bool edit_open = true;                               // last_edit_seconds is still to be set

@@ -60,6 +60,7 @@ bool DirectTransport::light_vertices(const std::atomic<bool>& cancel) {
         for (std::uint32_t v = first; v < last; ++v) {
             float* factors = factors_.data() + std::size_t(v) * emitters_.size();
             light(origins_[v], mesh_.vertices[v].normal, factors);
+            buried_[v] = 0;
             if (equal_flux_light(factors) == 0) find_buried(world_, mesh_, origins_, v, v + 1, buried_);
         }
     });
@@ -160,25 +161,20 @@ void DirectTransport::split_bent() {
     if (refined_) misfit_ = misfit_count_ > 0 ? std::sqrt(misfit_sum_ / double(misfit_count_)) : 0;
 }
 
-void DirectTransport::follow_mesh(bool lit) {
+void DirectTransport::follow_mesh() {
     const std::uint32_t before = static_cast<std::uint32_t>(buried_.size());
-    const std::uint32_t after = static_cast<std::uint32_t>(mesh_.vertices.size());
-    factors_.resize(std::size_t(after) * emitters_.size(), 0);
-    buried_.resize(after, 0);
+    const std::uint32_t count = static_cast<std::uint32_t>(mesh_.vertices.size());
+    factors_.resize(std::size_t(count) * emitters_.size(), 0);
+    buried_.resize(count, 0);
+    for (std::uint32_t v = before; v < count; ++v) {
+        const auto& p = mesh_.vertices[v].parents;
+        buried_[v] = buried_[p[0]] && buried_[p[1]];
+        for (std::size_t l = 0; l < emitters_.size(); ++l)
+            factors_[v * emitters_.size() + l] = 0.5f * (at_vertex(p[0])[l] + at_vertex(p[1])[l]);
+    }
     origins_ = ray_origins(mesh_, world_.epsilon());
-    bisection_.emplace(mesh_);
+    if (!refined_) bisection_.emplace(mesh_); // refine() goes on from here
     level_begun_ = false;
-    if (vertex_cursor_ == before) vertex_cursor_ = after;
-    if (!lit) return;
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(before, after, 16),
-                      [&](const tbb::blocked_range<std::uint32_t>& range) {
-                          for (std::uint32_t v = range.begin(); v < range.end(); ++v) {
-                              float* factors = factors_.data() + std::size_t(v) * emitters_.size();
-                              light(origins_[v], mesh_.vertices[v].normal, factors);
-                              if (equal_flux_light(factors) == 0)
-                                  find_buried(world_, mesh_, origins_, v, v + 1, buried_);
-                          }
-                      });
 }
 
 bool DirectTransport::refine(const std::atomic<bool>& cancel) {
