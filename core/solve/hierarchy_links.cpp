@@ -90,7 +90,10 @@ LinkEstimate estimate_link(const World& world, const ElementTree& tree, const st
     const float part = std::max(r.live_area() / float(p.count), s.live_area() / float(q.count)); // m^2
     const auto looks = [&](std::size_t i, std::size_t j) {
         ++estimate.rays;
-        return !world.occluded({p.position[i], q.position[j] - p.position[i], 1e-5f, 1 - 1e-5f});
+        // The same ray for both links of a pair, so that both see the same.
+        const bool forward = receiver < source;
+        const glm::vec3 from = forward ? p.position[i] : q.position[j], to = forward ? q.position[j] : p.position[i];
+        return !world.occluded({from, to - from, 1e-5f, 1 - 1e-5f});
     };
     int facing = 0, clear = 0;
     const auto pc = static_cast<std::size_t>(p.count), qc = static_cast<std::size_t>(q.count);

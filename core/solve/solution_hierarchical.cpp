@@ -177,6 +177,7 @@ void start_hierarchical(State& s, bool same_sources) {
         s.hierarchy = std::make_unique<Hierarchy>(*s.scene, *s.world, settings, std::move(direct));
         if (!s.hierarchy->failure().empty()) return fail(s, s.hierarchy->failure());
         s.final_gather.reset();
+        s.leaf_mesh.reset();
         s.shown_round = 0;
         s.show_leaves = State::ShowLeaves::no;
         s.indirect_irradiance = ChannelField(s.mesh.coarse_vertex_count, s.channels());

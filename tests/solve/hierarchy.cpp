@@ -189,8 +189,9 @@ TEST(Hierarchical, ADimmerKeepsTheLinks) {
     solution.update(std::make_shared<const Scene>(dimmed), SolveFrom::sources);
     test::settle(solution);
     ASSERT_TRUE(solution.status().settled) << solution.status().message;
-    EXPECT_EQ(solution.status().rays, rays); // the flux of a link as a share of the emitted is what it was
-    EXPECT_EQ(solution.status().links, links);
+    // The flux of a link as a share of the emitted is what it was, but for what the sweeps leave.
+    EXPECT_LT(double(solution.status().rays), 1.01 * double(rays));
+    EXPECT_NEAR(double(solution.status().links) / double(links), 1, 0.01);
     EXPECT_NEAR(mean_light(*solution.state().hierarchy) / before, 0.5, 1e-3);
 }
 
