@@ -76,6 +76,7 @@ public:
     std::uint32_t rounds() const { return rounds_; } // of refinement
     std::uint64_t rays() const { return rays_; }
     bool refining() const { return phase_ == Phase::look || phase_ == Phase::refine; }
+    bool absorbs_nothing() const; // closed, and every reflectance 1: there is no finite solution
     bool settled() const { return phase_ == Phase::settled; }
     double progress() const;                                    // of the round
     double residual() const { return residual_; }               // change of B in the last sweep / B, worst channel
@@ -121,6 +122,7 @@ private:
     void resize_values();
     void set_leaf_source(std::uint32_t leaf);
     void push_and_pull(bool sources_only);
+    void extrapolate(const std::vector<double>& change);
     void measure_errors();
     void sum_rows();
     float bright(const float* channels) const;
@@ -155,6 +157,9 @@ private:
     std::vector<float> direct_brightness_;              // of direct irradiance, weighted; of elements
     double mean_irradiance_ = 0, total_area_ = 0, emitted_flux_ = 0, mean_rho_ = 0;
     double residual_ = 1, last_residual_ = 1, estimated_error_ = 1, error_bound_ = 1;
+    std::vector<float> extrapolation_; // of the next sweep, by channel
+    std::vector<double> change_before_, ratio_before_;
+    std::uint32_t sweeps_since_ = 0;
     std::uint32_t growing_ = 0; // sweeps in a row whose residual grew
 };
 

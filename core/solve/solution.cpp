@@ -56,6 +56,7 @@ void step_solve(State& s, const std::atomic<bool>& cancel, bool one_shot) {
 } // namespace
 
 void start_solver(State& s, bool same_sources) {
+    if (s.solver() != SolverKind::hierarchical) s.status.links = 0;
     switch (s.solver()) {
     case SolverKind::automatic:
     case SolverKind::gathering:

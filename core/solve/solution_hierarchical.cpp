@@ -201,6 +201,7 @@ void step_hierarchical(State& s, const std::atomic<bool>& cancel) {
     const std::uint64_t rays = h.rays();
     const std::uint32_t sweeps = h.sweeps();
     h.step(cancel);
+    if (h.sweeps() > 0 && sweeps == 0 && h.absorbs_nothing()) return fail(s, no_finite_solution);
     s.status.rays += h.rays() - rays;
     if (!h.failure().empty()) return fail(s, h.failure());
     report(s);
