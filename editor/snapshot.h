@@ -16,7 +16,8 @@
 
 namespace lueur {
 
-class World; // core/transport/world.h
+class World;          // core/transport/world.h
+struct HierarchyView; // core/solve/hierarchy_view.h
 
 struct Snapshot {
     std::uint64_t revision = 0;          // grows with each publication
@@ -25,6 +26,7 @@ struct Snapshot {
     std::shared_ptr<const Mesh> mesh; // null before the first mesh; the same pointer while it has not changed
     std::shared_ptr<const World> world;
     std::shared_ptr<const Field> field;
+    std::shared_ptr<const HierarchyView> hierarchy; // of the hierarchical solver; else null
     SolveStatus status;
     std::vector<ConvergencePoint> history;
 };

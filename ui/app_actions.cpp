@@ -194,6 +194,12 @@ void EditorWindow::do_command(Command command) {
     case Command::toggle_panels:
         state_.layout.panels_visible = !state_.layout.panels_visible;
         break;
+    case Command::toggle_links:
+        state_.links_shown = !state_.links_shown;
+        break;
+    case Command::toggle_levels:
+        state_.levels_shown = !state_.levels_shown;
+        break;
     case Command::toggle_probe:
         state_.layout.probe_at_cursor = !state_.layout.probe_at_cursor;
         break;

@@ -28,6 +28,8 @@ enum class Command {
     home,
     toggle_panels,
     toggle_probe,
+    toggle_links,
+    toggle_levels,
     deselect,
     pause,
     step,

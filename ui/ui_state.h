@@ -61,6 +61,13 @@ struct UiState {
     bool show_luminaires = false;            // bring the luminaires tab to the front once
     std::optional<Probe> hovered;
 
+    // The hierarchical solver's links and elements over the picture.
+    struct Place {
+        glm::vec3 position, normal;
+    };
+    bool links_shown = false, levels_shown = false;
+    std::optional<Place> link_place; // clicked at
+
     Layout layout;
     Fonts fonts;
     float scale = 1; // pixels for each unscaled pixel

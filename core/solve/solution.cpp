@@ -56,6 +56,7 @@ void step_solve(State& s, const std::atomic<bool>& cancel, bool one_shot) {
 } // namespace
 
 void start_solver(State& s, bool same_sources) {
+    if (s.solver() != SolverKind::hierarchical) s.status.links = 0;
     switch (s.solver()) {
     case SolverKind::automatic:
     case SolverKind::gathering:
@@ -199,6 +200,9 @@ std::shared_ptr<const Mesh> Solution::mesh() const {
 }
 std::shared_ptr<const World> Solution::world() const {
     return state_->world;
+}
+std::shared_ptr<const HierarchyView> Solution::hierarchy() const {
+    return state_->solver() == SolverKind::hierarchical ? state_->hierarchy_view : nullptr;
 }
 std::shared_ptr<const Field> Solution::field() const {
     return state_->published_mesh ? compose_field(*state_) : nullptr;

@@ -7,6 +7,10 @@
 #include <vector>
 
 #include "core/solve/gather_system.h"
+#include "core/solve/hierarchy.h"
+#include "core/solve/hierarchy_field.h"
+#include "core/solve/hierarchy_final.h"
+#include "core/solve/hierarchy_view.h"
 #include "core/solve/patch_solve.h"
 #include "core/solve/shooting.h"
 #include "core/solve/solution.h"
@@ -56,8 +60,18 @@ struct Solution::State {
     ChannelField indirect_irradiance; // gathered_direct + W U at the coarse vertices, refreshed after sweeps
     Shooting shooting;
     PatchSolve patch_solve; // Jacobi, Gauss-Seidel, overshooting
-    bool solving = false;   // system or shooting hold this scene's sources
-    bool edit_open = true;  // last_edit_seconds is still to be set
+    std::unique_ptr<Hierarchy> hierarchy;
+    enum class ShowLeaves { no, cut, light, read, values };
+    ShowLeaves show_leaves = ShowLeaves::no; // which part of it is going on
+    std::unique_ptr<LeafMesh> leaf_mesh;     // cuts `mesh`, from the first round on
+    std::uint32_t shown_round = 0;
+    std::unique_ptr<FinalGather> final_gather;           // at the mesh's vertices, of the links of this round:
+    std::uint32_t final_round = 0;                       //
+    bool final_done = false;                             // all its rays are traced
+    std::vector<glm::vec3> vertex_origins;               // of all vertices of the mesh
+    std::shared_ptr<const HierarchyView> hierarchy_view; // as of the last round of refinement
+    bool solving = false;                                // system or shooting hold this scene's sources
+    bool edit_open = true;                               // last_edit_seconds is still to be set
 
     int channels() const { return wavelengths->size() + (trichromatic ? trichromatic->size() : 0); }
     // Coarse vertices by their own rays, fine ones where they are dark and inside a solid.
@@ -65,9 +79,11 @@ struct Solution::State {
     std::uint32_t material_of(std::uint32_t surface) const;
     std::optional<std::size_t> luminaire_of(std::uint32_t surface, bool back) const; // that shines on this side
     bool luminaire_is_lit(std::size_t luminaire) const;                              // shooting: it has shot
-    const ChannelField& indirect() const;                                            // irradiance at coarse vertices
+    // Irradiance at coarse vertices, or (hierarchical) at all.
+    const ChannelField& indirect() const;
     std::vector<float> ambient() const;            // irradiance to be added for display; only shooting has some
     std::vector<float> unshot_at_vertices() const; // luminous exitance at coarse vertices that is still to be sent on
+    bool direct_light_apart() const;               // all of it shown by DirectTransport, not by the solver
     SolverKind solver() const;                     // that is at work, never automatic
 };
 

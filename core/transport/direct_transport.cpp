@@ -60,6 +60,7 @@ bool DirectTransport::light_vertices(const std::atomic<bool>& cancel) {
         for (std::uint32_t v = first; v < last; ++v) {
             float* factors = factors_.data() + std::size_t(v) * emitters_.size();
             light(origins_[v], mesh_.vertices[v].normal, factors);
+            buried_[v] = 0;
             if (equal_flux_light(factors) == 0) find_buried(world_, mesh_, origins_, v, v + 1, buried_);
         }
     });
@@ -82,8 +83,8 @@ void DirectTransport::collect_edges() {
         if (mesh_.nodes[next_node_].children == no_index) open_.push_back(next_node_);
     for (const std::uint32_t n : open_) {
         const glm::uvec3 v = mesh_.nodes[n].vertices;
-        const int longest = bisection_.longest_edge(n);
-        if (bisection_.edge_length(v[longest], v[(longest + 1) % 3]) < smallest2) continue;
+        const int longest = bisection_->longest_edge(n);
+        if (bisection_->edge_length(v[longest], v[(longest + 1) % 3]) < smallest2) continue;
         const glm::vec3 centre =
             (mesh_.vertices[v.x].position + mesh_.vertices[v.y].position + mesh_.vertices[v.z].position) / 3.0f;
         for (int k = 0; k < 3; ++k) {
@@ -124,15 +125,15 @@ void DirectTransport::split_bent() {
             const auto slot = edge_slot_.find(Bisection::edge_key(v[k], v[(k + 1) % 3]));
             if (slot != edge_slot_.end()) worst = std::max(worst, bent[slot->second]);
         }
-        const int longest = bisection_.longest_edge(n);
-        if (worst > 0) wanted.emplace_back(worst * bisection_.edge_length(v[longest], v[(longest + 1) % 3]), n);
+        const int longest = bisection_->longest_edge(n);
+        if (worst > 0) wanted.emplace_back(worst * bisection_->edge_length(v[longest], v[(longest + 1) % 3]), n);
     }
     std::sort(wanted.begin(), wanted.end(), [](const auto& a, const auto& b) {
         return a.first != b.first ? a.first > b.first : a.second < b.second;
     });
     for (const auto& [misfit, n] : wanted) {
         if (mesh_.vertices.size() >= params_.most_vertices) break;
-        if (mesh_.nodes[n].children == no_index) bisection_.split(n);
+        if (mesh_.nodes[n].children == no_index) bisection_->split(n);
     }
     // New vertices at middles that were looked at are lit already; the others (made for conformity) are lit now.
     const std::uint32_t after = static_cast<std::uint32_t>(mesh_.vertices.size());
@@ -158,6 +159,22 @@ void DirectTransport::split_bent() {
     vertex_cursor_ = after;
     refined_ = after == before || after >= params_.most_vertices;
     if (refined_) misfit_ = misfit_count_ > 0 ? std::sqrt(misfit_sum_ / double(misfit_count_)) : 0;
+}
+
+void DirectTransport::follow_mesh() {
+    const std::uint32_t before = static_cast<std::uint32_t>(buried_.size());
+    const std::uint32_t count = static_cast<std::uint32_t>(mesh_.vertices.size());
+    factors_.resize(std::size_t(count) * emitters_.size(), 0);
+    buried_.resize(count, 0);
+    for (std::uint32_t v = before; v < count; ++v) {
+        const auto& p = mesh_.vertices[v].parents;
+        buried_[v] = buried_[p[0]] && buried_[p[1]];
+        for (std::size_t l = 0; l < emitters_.size(); ++l)
+            factors_[v * emitters_.size() + l] = 0.5f * (at_vertex(p[0])[l] + at_vertex(p[1])[l]);
+    }
+    origins_ = ray_origins(mesh_, world_.epsilon());
+    if (!refined_) bisection_.emplace(mesh_); // refine() goes on from here
+    level_begun_ = false;
 }
 
 bool DirectTransport::refine(const std::atomic<bool>& cancel) {

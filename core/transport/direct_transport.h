@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -33,6 +34,11 @@ public:
     bool light_vertices(const std::atomic<bool>& cancel); // D at the vertices there are
     bool refine(const std::atomic<bool>& cancel);         // then split, level by level, and light the new ones
 
+    // The mesh was cut by someone else: its new vertices have what their parents
+    // have, until light_vertices has been called to its end.
+    void follow_mesh();
+
+    std::size_t lit_vertices() const { return buried_.size(); } // that it knows of
     std::size_t emitter_count() const { return emitters_.size(); }
     const std::vector<Emitter>& emitters() const { return emitters_; }
     // D of each emitter at a vertex: irradiance for unit exitance.
@@ -59,7 +65,7 @@ private:
     Mesh& mesh_;
     std::vector<Emitter> emitters_;
     DirectParams params_;
-    Bisection bisection_;
+    std::optional<Bisection> bisection_;
     std::vector<float> weight_;  // exitance of each emitter at equal flux
     std::vector<float> factors_; // vertices * emitters
     std::vector<std::uint8_t> buried_;

@@ -52,6 +52,13 @@ std::string report_json(const std::string& command, const BatchParams& params, c
     report["matrix_bytes"] = status.matrix_bytes;
     report["vertices"] = status.vertices;
     report["elements"] = status.elements;
+    if (chosen_solver(settings) == SolverKind::hierarchical) {
+        report["links"] = status.links;
+        report["link_elements"] = status.link_elements;
+        report["link_levels"] = status.link_levels;
+        report["link_rounds"] = status.link_rounds;
+        report["error_bound_percent"] = 100 * status.error_bound;
+    }
     report["sweeps"] = status.sweeps;
     report["shots"] = status.shots;
     report["emitted_lumens"] = status.emitted_lumens;
