@@ -38,6 +38,10 @@ struct Field : Shades {
     std::shared_ptr<const Wavelengths> wavelengths;
 };
 
+// Standard deviation of the illuminance at each vertex and around it, in per cent of it (of 2 % of the mean where it is
+// darker).
+std::vector<float> relative_errors(const Field& field);
+
 inline constexpr std::size_t largest_channel_field = 12'000'000; // numbers: 48 MB
 
 } // namespace lueur
