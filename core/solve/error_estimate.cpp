@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <numbers>
 
 #include <tbb/parallel_sort.h>
@@ -96,18 +98,36 @@ struct Light {
     std::vector<float> direct_variance;
     std::vector<std::uint8_t> buried;
     double mean = 0, total_area = 0; // over the surfaces that are not buried
+    double caught = 1;               // of the luminaires' flux by the surfaces: 1 in a closed scene
 };
+
+// Buried vertices that share an element with one that is not: half of what is around them is seen, and what is shown
+// there is made up of the neighbours.
+std::vector<std::uint8_t> rim_of(const Mesh& mesh, const std::vector<std::uint8_t>& buried) {
+    std::vector<std::uint8_t> rim(buried.size(), 0);
+    for (const glm::uvec3& e : mesh.elements)
+        if (const int inside = buried[e.x] + buried[e.y] + buried[e.z]; inside == 1 || inside == 2)
+            for (int k = 0; k < 3; ++k) rim[e[k]] = buried[e[k]];
+    return rim;
+}
+
+// Of each luminaire that has been lit, lm m^-2.
+std::vector<double> luminous_exitances(const State& s) {
+    std::vector<double> exitance;
+    for (std::size_t l = 0; l < s.direct->emitter_count(); ++l)
+        exitance.push_back(s.luminaire_is_lit(l)
+                               ? xyz_from_channels(*s.wavelengths, std::span<const double>(s.luminaire_exitance[l])).y
+                               : 0);
+    return exitance;
+}
 
 Light light_of(const State& s, const Field& field) {
     Light light;
     const std::size_t count = field.irradiance_xyz.size(), emitters = s.direct->emitter_count();
     light.area = vertex_areas(s.mesh);
     light.buried = s.all_buried();
-    std::vector<double> exitance;
-    for (std::size_t l = 0; l < emitters; ++l)
-        exitance.push_back(s.luminaire_is_lit(l)
-                               ? xyz_from_channels(*s.wavelengths, std::span<const double>(s.luminaire_exitance[l])).y
-                               : 0);
+    const std::vector<double> exitance = luminous_exitances(s);
+    double caught = 0;
     for (std::uint32_t v = 0; v < count; ++v) {
         double d = 0, variance = 0;
         for (std::size_t l = 0; l < emitters; ++l) {
@@ -124,7 +144,11 @@ Light light_of(const State& s, const Field& field) {
         if (light.buried[v]) continue;
         light.mean += double(light.area[v]) * y;
         light.total_area += light.area[v];
+        caught += double(light.area[v]) * d;
     }
+    double emitted = 0;
+    for (std::size_t l = 0; l < emitters; ++l) emitted += exitance[l] * s.direct->emitters()[l].area;
+    if (emitted > 0) light.caught = std::clamp(caught / emitted, 0.0, 1.0);
     if (light.total_area > 0) light.mean /= light.total_area;
     return light;
 }
@@ -191,11 +215,7 @@ std::vector<Residual> residuals(const State& s, const Light& light, const Model&
     std::vector<Residual> list;
     if (!s.probes.complete()) return list;
     const std::size_t emitters = s.direct->emitter_count();
-    std::vector<double> exitance;
-    for (std::size_t l = 0; l < emitters; ++l)
-        exitance.push_back(s.luminaire_is_lit(l)
-                               ? xyz_from_channels(*s.wavelengths, std::span<const double>(s.luminaire_exitance[l])).y
-                               : 0);
+    const std::vector<double> exitance = luminous_exitances(s);
     constexpr int sets = ErrorProbes::sets, per_set = ErrorProbes::rays / sets;
     std::vector<float> reflected = light.reflected;
     reflected.push_back(0); // outside
@@ -236,6 +256,26 @@ struct Scale {
         return std::clamp((std::max(0.0, found) + prior * modelled) / ((1 + prior) * modelled), 1 / most, most);
     }
 };
+
+// Errors have longer tails than the normal distribution: so many standard deviations hold 95 % of the residuals at the
+// probed vertices, the probes' own noise counted in both.
+double interval_factor(const std::vector<Residual>& probes, const std::vector<float>& error) {
+    constexpr double normal = 1.96, most = 4;
+    std::vector<std::pair<double, double>> far; // standard deviations, area
+    double all = 0;
+    for (const Residual& r : probes) {
+        if (r.point->between) continue;
+        const double sigma = error[r.point->vertices.x];
+        const double deviation = std::sqrt(sigma * sigma + r.direct_noise + r.indirect_noise);
+        far.emplace_back(deviation > 0 ? std::abs(r.direct + r.indirect) / deviation : 0, r.point->area);
+        all += r.point->area;
+    }
+    std::sort(far.begin(), far.end());
+    double inside = 0;
+    for (const auto& [deviations, area] : far)
+        if ((inside += area) >= 0.95 * all) return std::clamp(deviations, normal, most);
+    return normal;
+}
 
 // Paths know their own error; between the vertices they are interpolated as any other.
 void estimate_traced_error(const State& s, const Light& light, Field& field) {
@@ -300,7 +340,7 @@ void estimate_error(const State& s, Field& field) {
     const std::vector<Residual> probes = residuals(s, light, model);
 
     // Light that is missing everywhere: the mean residual is one reflection of it, all of it 1 / (1 - rho) times that.
-    const double rho = std::min(0.999, mean_luminous_reflectance(s));
+    const double rho = std::min(0.999, mean_luminous_reflectance(s) * light.caught);
     double missing = 0;
     if (!probes.empty()) {
         double mean = 0, area = 0, noise = 0;
@@ -325,7 +365,7 @@ void estimate_error(const State& s, Field& field) {
             else if (v < unshot.size())
                 flux += double(s.coarse_area[v]) * unshot[v];
         }
-        missing = light.total_area > 0 ? flux / light.total_area / (1 - rho) : 0;
+        missing = light.total_area > 0 ? light.caught * flux / light.total_area / (1 - rho) : 0;
     }
 
     Scale direct, indirect, between;
@@ -352,8 +392,24 @@ void estimate_error(const State& s, Field& field) {
         field.error[v] = static_cast<float>(std::sqrt(variance));
         field.interpolation_error[v] = static_cast<float>(std::sqrt(between_factor * model.between[v]));
     }
+    std::vector<float> area = light.area;
+    std::vector<std::uint8_t> left_out = light.buried;
+    const std::vector<std::uint8_t> rim = rim_of(s.mesh, light.buried);
+    for (std::size_t v = 0; v < count; ++v) {
+        if (!rim[v]) continue;
+        field.error[v] = std::max(field.error[v], 0.5f * light.total[v]);
+        area[v] *= 0.5f;
+        left_out[v] = 0;
+    }
+    field.interval_factor = interval_factor(probes, field.error);
+    if (std::getenv("LUEUR_DEBUG_ERROR"))
+        std::fprintf(
+            stderr,
+            "direct %.3f indirect %.3f between %.3f missing %.4f mean %.2f caught %.2f factor %.2f probes %zu\n",
+            direct_factor, indirect_factor, between_factor, missing, light.mean, light.caught, field.interval_factor,
+            probes.size());
     field.scene_error =
-        std::min(1.0, relative_rms(light.total, field.error, field.interpolation_error, light.area, light.buried));
+        std::min(1.0, relative_rms(light.total, field.error, field.interpolation_error, area, left_out));
 }
 
 } // namespace lueur
