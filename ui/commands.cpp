@@ -13,6 +13,7 @@ constexpr std::array<CommandInfo, 27> table{{
     {Command::save_as, "Save as...", "Ctrl+Shift+S"},
     {Command::screenshot, "Save picture", "F12 or P"},
     {Command::screenshot_as, "Save picture as...", "Shift+P"},
+    {Command::spectral_picture_as, "Save spectral picture as...", ""},
     {Command::quit, "Quit", "Ctrl+Q"},
     {Command::undo, "Undo", "Ctrl+Z"},
     {Command::redo, "Redo", "Ctrl+Y"},

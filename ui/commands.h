@@ -13,6 +13,7 @@ enum class Command {
     save_as,
     screenshot,
     screenshot_as,
+    spectral_picture_as,
     quit,
     undo,
     redo,

@@ -54,6 +54,7 @@ double menu_bar(const Document& document, const Preferences& preferences, UiStat
         item(state, Command::save_as);
         item(state, Command::screenshot);
         item(state, Command::screenshot_as);
+        item(state, Command::spectral_picture_as);
         ImGui::Separator();
         item(state, Command::quit);
         ImGui::EndMenu();

@@ -26,7 +26,16 @@ enum class ViewMode { shaded, elements, unshot, luminance, illuminance, side_by_
 enum class ChromaticityScale { xy, uv }; // CIE 1931 x y, CIE 1976 u' v'
 
 // Which file the browser is open for.
-enum class FilePurpose { open_scene, save_scene, save_picture, reflectance_spectrum, emission_spectrum, texture };
+enum class FilePurpose {
+    open_scene,
+    save_scene,
+    save_picture,
+    save_spectral_picture,
+    save_calibration_picture,
+    reflectance_spectrum,
+    emission_spectrum,
+    texture
+};
 struct FileRequest {
     FilePurpose purpose = FilePurpose::open_scene;
     MaterialIndex material{};

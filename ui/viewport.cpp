@@ -60,7 +60,7 @@ void legend(const UiState& state, const ViewportState& view, const DisplaySettin
         return;
     }
     case ViewMode::difference:
-        draw_legend(state, x, y, "Colour difference spectral - RGB, CIEDE2000", difference_scale());
+        draw_legend(state, x, y, "Colour difference spectral - RGB, CIEDE2000", colour_difference_scale());
         return;
     case ViewMode::error:
         draw_legend(state, x, y, "Estimated error of illuminance (one standard deviation), %", error_scale());

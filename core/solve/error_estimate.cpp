@@ -280,7 +280,7 @@ double interval_factor(const std::vector<Residual>& probes, const std::vector<fl
 // Paths know their own error; between the vertices they are interpolated as any other.
 void estimate_traced_error(const State& s, const Light& light, Field& field) {
     const std::vector<float> bend = bends(s.mesh.elements, s.mesh, light.buried, light.total);
-    const WavelengthError& channels = s.wavelength_error;
+    const WavelengthError& channels = s.choice.illuminance_error;
     for (std::uint32_t v = 0; v < field.error.size(); ++v) {
         const double paths = s.traced->standard_error(v);
         const double wavelengths =
@@ -383,7 +383,7 @@ void estimate_error(const State& s, Field& field) {
             between.add(all * all - r.direct_noise - r.indirect_noise - at_vertices, r.model_between, r.weight);
         }
     const double between_factor = between.factor();
-    const WavelengthError& channels = s.wavelength_error;
+    const WavelengthError& channels = s.choice.illuminance_error;
     for (std::size_t v = 0; v < count; ++v) {
         const double wavelengths =
             std::abs(channels.direct * light.direct[v]) + std::abs(channels.reflected * light.indirect[v]);

@@ -95,7 +95,7 @@ void fail(State& s, std::string message) {
 Solution::Solution(std::shared_ptr<const Scene> scene)
     : state_(std::make_unique<State>()) {
     state_->scene = std::move(scene);
-    make_channels(*state_);
+    plan_channels(*state_);
 }
 Solution::~Solution() = default;
 Solution::Solution(Solution&&) noexcept = default;
@@ -115,7 +115,12 @@ void Solution::update(std::shared_ptr<const Scene> scene, SolveFrom stale) {
         auto fresh = std::make_unique<State>();
         fresh->scene = s.scene;
         state_ = std::move(fresh);
-        make_channels(*state_);
+        plan_channels(*state_);
+        return;
+    }
+    if (s.phase == SolvePhase::mesh) {
+        if (s.choosing.valid()) s.choice = s.choosing.get();
+        plan_channels(s);
         return;
     }
     const SameChannels same = take_channels(s);
@@ -152,6 +157,7 @@ bool Solution::step(const std::atomic<bool>& cancel, bool one_shot) {
     switch (s.phase) {
     case SolvePhase::mesh:
         step_mesh(s);
+        make_channels(s);
         break;
     case SolvePhase::sketch:
         step_sketch(s, cancel);

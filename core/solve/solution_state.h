@@ -1,6 +1,7 @@
 // The inside of a Solution, for core/solve and core/view only.
 #pragma once
 
+#include <future>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -9,7 +10,7 @@
 #include "core/solve/gather_system.h"
 #include "core/solve/shooting.h"
 #include "core/solve/solution.h"
-#include "core/solve/wavelength_error.h"
+#include "core/solve/wavelengths_choice.h"
 #include "core/transport/direct_transport.h"
 #include "core/transport/gather_rows.h"
 
@@ -49,11 +50,10 @@ struct Solution::State {
     std::vector<float> indirect_deviation;
 
     // Sources and paints, in channels: those of `wavelengths`, then those of `trichromatic`.
-    std::shared_ptr<const Wavelengths> wavelengths;
-    std::optional<Wavelengths> trichromatic;             // when the two are compared
-    SpectralContent content;                             // that the wavelengths were chosen for
-    double planned_error = 0;                            // and the colour_error
-    WavelengthError wavelength_error;                    // what they make of illuminance
+    std::shared_ptr<const Wavelengths> wavelengths; // of `choice`; null until the mesh is there
+    std::optional<Wavelengths> trichromatic;        // when the two are compared
+    WavelengthsChoice choice;
+    std::future<WavelengthsChoice> choosing;             // valid: on its way, on a thread of its own
     std::vector<std::vector<double>> material_rho;       // per material
     std::vector<std::vector<double>> luminaire_exitance; // per luminaire, W m^-2 nm^-1
     std::vector<std::optional<LuminaireIndex>> object_luminaire;

@@ -52,10 +52,11 @@ glm::vec3 sample_texture(const TextureImage& image, glm::vec2 uv);
 
 struct PictureParams {
     int width = 1280, height = 800;
-    int samples_per_axis = 3; // of a pixel: 3 -> 9 rays
+    int samples_per_axis = 3; // of a pixel: 3 -> 9 rays; at least 1
 };
 
-enum class PictureQuantity { colour, luminance, illuminance }; // the last two: grey pictures of Y in cd m^-2, lx
+// All but colour: grey pictures, Y being cd m^-2, lx, or the CIEDE2000 of the field's trichromatic approach.
+enum class PictureQuantity { colour, luminance, illuminance, colour_difference };
 
 // Progress goes from 0 to 1. Cancelled: an empty picture.
 RadianceImage render_picture(const FieldView& view, const Camera& camera, const PictureParams& params,

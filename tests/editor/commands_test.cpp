@@ -272,6 +272,16 @@ TEST_F(Furnace, IlluminanceIsPiTimesTheLuminance) {
     for (std::size_t i = 0; i < a->rgb.size(); ++i) ASSERT_NEAR(a->rgb[i].g, b->rgb[i].g, 0.012f);
 }
 
+// Grey walls under an even spectrum: the trichromatic approach shows them as they are.
+TEST_F(Furnace, ColourDifferenceIsAskedForAndSolvedBeside) {
+    auto command = render("difference.exr");
+    command.quantity = PictureQuantity::colour_difference;
+    ASSERT_EQ(run(command), 0);
+    EXPECT_EQ(read_image_metadata(command.output)->at("lueur:quantity"), "colour_difference");
+    command.batch.solve.wavelengths = WavelengthsSpec{WavelengthRule::rgb, 3};
+    EXPECT_EQ(run(command), 2) << "rgb differs from nothing";
+}
+
 TEST_F(Furnace, SavesRadianceWithItsStoryToo) {
     auto command = render("furnace.exr");
     ASSERT_EQ(run(command), 0);
