@@ -8,6 +8,7 @@
 
 #include "core/solve/error_probes.h"
 #include "core/solve/gather_system.h"
+#include "core/solve/patch_solve.h"
 #include "core/solve/shooting.h"
 #include "core/solve/solution.h"
 #include "core/solve/wavelengths_choice.h"
@@ -66,6 +67,7 @@ struct Solution::State {
     bool solving = false;                // system or shooting hold this scene's sources
     std::shared_ptr<const Field> stock;  // the field of a solution that does not move any more
     bool edit_open = true;               // last_edit_seconds is still to be set
+    PatchSolve patch_solve;              // Jacobi, Gauss-Seidel, overshooting
 
     int channels() const { return wavelengths->size() + (trichromatic ? trichromatic->size() : 0); }
     // Coarse vertices by their own rays, fine ones where they are dark and inside a solid.
