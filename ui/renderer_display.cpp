@@ -82,14 +82,6 @@ FalseColourSettings unshot_scale(float top) {
     return scale;
 }
 
-FalseColourSettings error_scale() {
-    FalseColourSettings scale;
-    scale.low = 0.1;
-    scale.high = 100;
-    scale.levels = {1, 2, 5, 10};
-    return scale;
-}
-
 unsigned Renderer::display_variant(const RenderParams& params) const {
     const DisplaySettings& display = params.display;
     const bool colour = params.view != ViewMode::luminance && shows_colour(params.view);

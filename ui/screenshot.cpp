@@ -80,11 +80,14 @@ void take_view(ScreenshotParams& params, ViewMode view) {
         params.quantity = PictureQuantity::colour_difference;
         params.false_colour = true;
         return;
+    case ViewMode::error:
+        params.quantity = PictureQuantity::error;
+        params.false_colour = true;
+        return;
     case ViewMode::shaded:
     case ViewMode::elements:
     case ViewMode::unshot:
     case ViewMode::side_by_side:
-    case ViewMode::error:
         params.quantity = PictureQuantity::colour;
         params.false_colour = false;
         return;

@@ -257,6 +257,16 @@ struct Scale {
     }
 };
 
+void set_relative_error(const Light& light, Field& field) {
+    field.relative_error.assign(field.error.size(), 0);
+    for (std::size_t v = 0; v < field.error.size(); ++v) {
+        const double bright = std::max(double(light.total[v]), dark_share * light.mean);
+        if (bright > 0)
+            field.relative_error[v] = static_cast<float>(
+                100 * std::hypot(double(field.error[v]), double(field.interpolation_error[v])) / bright);
+    }
+}
+
 // Errors have longer tails than the normal distribution: so many standard deviations hold 95 % of the residuals at the
 // probed vertices, the probes' own noise counted in both.
 double interval_factor(const std::vector<Residual>& probes, const std::vector<float>& error) {
@@ -290,26 +300,13 @@ void estimate_traced_error(const State& s, const Light& light, Field& field) {
         const double bent = 0.0625 * (double(bend[v]) * bend[v] - 4 * paths * paths);
         field.interpolation_error[v] = static_cast<float>(std::sqrt(std::max(0.0, bent)));
     }
+    set_relative_error(light, field);
     field.interval_factor = 1.96 * batch_interval_factor;
     field.scene_error =
         std::min(1.0, relative_rms(light.total, field.error, field.interpolation_error, light.area, light.buried));
 }
 
 } // namespace
-
-std::vector<float> relative_errors(const Field& field) {
-    const std::size_t count = field.error.size();
-    double mean = 0;
-    for (const glm::vec3& h : field.irradiance_xyz) mean += double(h.y) / double(std::max<std::size_t>(1, count));
-    std::vector<float> per_cent(field.irradiance_xyz.size(), 0);
-    for (std::size_t v = 0; v < count; ++v) {
-        const double bright = std::max(double(field.irradiance_xyz[v].y), dark_share * mean);
-        if (bright > 0)
-            per_cent[v] = static_cast<float>(
-                100 * std::hypot(double(field.error[v]), double(field.interpolation_error[v])) / bright);
-    }
-    return per_cent;
-}
 
 double relative_rms(const std::vector<float>& illuminance, const std::vector<float>& deviation,
                     const std::vector<float>& between, const std::vector<float>& area,
@@ -333,6 +330,7 @@ void estimate_error(const State& s, Field& field) {
     const std::size_t count = field.irradiance_xyz.size();
     field.error.assign(count, 0);
     field.interpolation_error.assign(count, 0);
+    field.relative_error.assign(count, 0);
     if (count == 0 || !s.direct || s.phase == SolvePhase::mesh) return;
     const Light light = light_of(s, field);
     if (s.is_traced()) return estimate_traced_error(s, light, field);
@@ -401,6 +399,7 @@ void estimate_error(const State& s, Field& field) {
         area[v] *= 0.5f;
         left_out[v] = 0;
     }
+    set_relative_error(light, field);
     field.interval_factor = interval_factor(probes, field.error);
     if (std::getenv("LUEUR_DEBUG_ERROR"))
         std::fprintf(

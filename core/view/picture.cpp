@@ -75,8 +75,10 @@ std::optional<FieldPoint> field_along_ray(const FieldView& view, const Ray& ray)
         emitted += double(w) * glm::dvec3(shades.emitted_xyz[v]);
         if (textured) by_texel += double(w) * glm::dmat3(shades.reflected_by_texel[v]);
         point.unshot += w * view.field->unshot[v];
-        if (!view.field->error.empty())
+        if (!view.field->error.empty()) {
             point.error += w * std::hypot(view.field->error[v], view.field->interpolation_error[v]);
+            point.relative_error += w * view.field->relative_error[v];
+        }
         if (!view.field->colour_difference.empty()) point.colour_difference += w * view.field->colour_difference[v];
     }
     if (glm::dot(point.normal, point.normal) > 0) point.normal = glm::normalize(point.normal);
@@ -113,6 +115,9 @@ RadianceImage render_picture(const FieldView& view, const Camera& camera, const 
                     break;
                 case PictureQuantity::colour_difference:
                     sum += double(point.colour_difference) * grey;
+                    break;
+                case PictureQuantity::error:
+                    sum += double(point.relative_error) * grey;
                     break;
                 }
             });

@@ -125,11 +125,11 @@ int render(const RenderCommand& command, BatchSession& session) {
         return exit_mistake;
     }
     const bool traced = chosen_solver(scene->solve) == SolverKind::reference;
-    if (traced && (command.spectral || command.quantity == PictureQuantity::colour_difference)) {
-        session.error(command.spectral
-                          ? "--spectral: the reference solver traces colours, not wavelengths; another --solver does"
-                          : "--quantity colour_difference: the reference solver traces one set of wavelengths; another "
-                            "--solver compares two");
+    const bool of_the_field =
+        command.quantity == PictureQuantity::colour_difference || command.quantity == PictureQuantity::error;
+    if (traced && (command.spectral || of_the_field)) {
+        session.error(fmt::format("{}: the reference solver traces pictures without a field; another --solver has one",
+                                  command.spectral ? "--spectral" : "--quantity " + to_string(command.quantity)));
         return exit_mistake;
     }
     if (command.quantity == PictureQuantity::colour_difference) {
