@@ -96,6 +96,7 @@ std::vector<float> neighbour_differences(std::span<const glm::uvec3> elements,
 struct Light {
     std::vector<float> total, direct, indirect, reflected, area;
     std::vector<float> direct_variance;
+    std::vector<float> unlit; // direct light of luminaires that have not shot yet
     std::vector<std::uint8_t> buried;
     double mean = 0, total_area = 0; // over the surfaces that are not buried
     double caught = 1;               // of the luminaires' flux by the surfaces: 1 in a closed scene
@@ -127,13 +128,17 @@ Light light_of(const State& s, const Field& field) {
     light.area = vertex_areas(s.mesh);
     light.buried = s.all_buried();
     const std::vector<double> exitance = luminous_exitances(s);
+    std::vector<double> all; // lit or not
+    for (const auto& channels : s.luminaire_exitance)
+        all.push_back(xyz_from_channels(*s.wavelengths, std::span<const double>(channels)).y);
     double caught = 0;
     for (std::uint32_t v = 0; v < count; ++v) {
-        double d = 0, variance = 0;
+        double d = 0, variance = 0, unlit = 0;
         for (std::size_t l = 0; l < emitters; ++l) {
             d += s.direct->at_vertex(v)[l] * exitance[l];
             const double deviation = s.direct->deviation_at_vertex(v)[l] * exitance[l];
             variance += deviation * deviation;
+            if (!s.luminaire_is_lit(l)) unlit += s.direct->at_vertex(v)[l] * all[l];
         }
         const float y = field.irradiance_xyz[v].y;
         light.total.push_back(y);
@@ -141,6 +146,7 @@ Light light_of(const State& s, const Field& field) {
         light.indirect.push_back(y - static_cast<float>(d));
         light.reflected.push_back(field.reflected_xyz[v].y * std::numbers::pi_v<float>);
         light.direct_variance.push_back(static_cast<float>(variance));
+        light.unlit.push_back(static_cast<float>(unlit));
         if (light.buried[v]) continue;
         light.mean += double(light.area[v]) * y;
         light.total_area += light.area[v];
@@ -386,7 +392,7 @@ void estimate_error(const State& s, Field& field) {
         const double wavelengths =
             std::abs(channels.direct * light.direct[v]) + std::abs(channels.reflected * light.indirect[v]);
         const double variance = direct_factor * model.direct[v] + indirect_factor * model.indirect[v] +
-                                missing * missing + wavelengths * wavelengths;
+                                missing * missing + wavelengths * wavelengths + double(light.unlit[v]) * light.unlit[v];
         field.error[v] = static_cast<float>(std::sqrt(variance));
         field.interpolation_error[v] = static_cast<float>(std::sqrt(between_factor * model.between[v]));
     }
