@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/solve/error_probes.h"
 #include "core/solve/gather_system.h"
 #include "core/solve/hierarchy.h"
 #include "core/solve/hierarchy_field.h"
@@ -19,6 +20,8 @@
 #include "core/transport/gather_rows.h"
 
 namespace lueur {
+
+struct TracedField; // traced_field.h
 
 // Mesh to refine make what all solvers stand on; transport is a solver's own (rays, a matrix, links), solve its sweeps
 // or shots. A solver may begin before refine, which gives it a first picture early.
@@ -45,6 +48,11 @@ struct Solution::State {
     bool refined = false;
     double element_size = 0;        // m, longest coarse edge in use
     std::vector<float> coarse_area; // m^2 of each coarse vertex
+    ErrorProbes probes;             // where the solution is asked whether it is right
+
+    // What a solver knows of the error of its own indirect light, lx at the coarse vertices, one standard deviation;
+    // empty: nothing. Error estimates start from it (error_estimate.h).
+    std::vector<float> indirect_deviation;
 
     // Sources and paints, in channels: those of `wavelengths`, then those of `trichromatic`.
     std::shared_ptr<const Wavelengths> wavelengths; // of `choice`; null until the mesh is there
@@ -71,6 +79,8 @@ struct Solution::State {
     std::vector<glm::vec3> vertex_origins;               // of all vertices of the mesh
     std::shared_ptr<const HierarchyView> hierarchy_view; // as of the last round of refinement
     bool solving = false;                                // system or shooting hold this scene's sources
+    std::unique_ptr<TracedField> traced;                 // of the reference solver
+    std::shared_ptr<const Field> stock;                  // the field of a solution that does not move any more
     bool edit_open = true;                               // last_edit_seconds is still to be set
 
     int channels() const { return wavelengths->size() + (trichromatic ? trichromatic->size() : 0); }
@@ -85,6 +95,10 @@ struct Solution::State {
     std::vector<float> unshot_at_vertices() const; // luminous exitance at coarse vertices that is still to be sent on
     bool direct_light_apart() const;               // all of it shown by DirectTransport, not by the solver
     SolverKind solver() const;                     // that is at work, never automatic
+    bool is_traced() const;                        // fine vertices have their whole irradiance from paths
+
+    State();
+    ~State();
 };
 
 std::shared_ptr<const Field> compose_field(const Solution::State& state);
