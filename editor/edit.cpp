@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/scene/scene_file.h"
+#include "core/scene/solver_words.h"
 #include "core/spectrum/overload.h"
 
 namespace lueur {
@@ -28,6 +29,16 @@ Stage stage_of_settings(const SolveSettings& before, const SolveSettings& after)
     if (after.element_size != before.element_size) return Stage::mesh;
     // Rays already traced were drawn from another sequence, or are more than are allowed now.
     if (after.seed != before.seed || after.max_rays < before.max_rays) return Stage::transport;
+    // Form factors and links are kept by the solvers that use them; to the others these settings are nothing.
+    const SolverKind solver = chosen_solver(after);
+    if (solver == chosen_solver(before)) {
+        const bool other_factors = after.form_factors != before.form_factors ||
+                                   after.form_factor_samples != before.form_factor_samples ||
+                                   after.matrix_memory != before.matrix_memory;
+        const bool other_links = after.oracle != before.oracle || after.link_tolerance != before.link_tolerance;
+        if (uses_form_factors(solver) && other_factors) return Stage::transport;
+        if (solver == SolverKind::hierarchical && other_links) return Stage::transport;
+    }
     // Another target or more rays: the solver goes on from the rays it has, or has met the target already.
     return after == before ? Stage::nothing : Stage::reflectance;
 }

@@ -1,5 +1,6 @@
 #include "editor/picture_metadata.h"
 
+#include <array>
 #include <charconv>
 #include <optional>
 
@@ -7,18 +8,9 @@
 
 #include "core/display/display_words.h"
 #include "core/display/metadata_text.h"
+#include "core/scene/solver_words.h"
 
 namespace lueur {
-
-std::string to_string(SolverKind solver) {
-    switch (solver) {
-    case SolverKind::gathering:
-        return "gathering";
-    case SolverKind::shooting:
-        return "shooting";
-    }
-    return {};
-}
 
 std::string to_string(PictureQuantity quantity) {
     switch (quantity) {
@@ -77,7 +69,7 @@ struct Words {
         if (*text != "yes" && *text != "no") complain(key, *text);
     }
     template <typename Enum, std::size_t N>
-    void choice(const std::string& key, Enum& value, const Enum (&all)[N]) {
+    void choice(const std::string& key, Enum& value, const std::array<Enum, N>& all) {
         const std::string* text = find(key);
         if (!text) return;
         for (const Enum one : all)
@@ -103,6 +95,11 @@ ImageMetadata picture_metadata(const Scene& scene, const std::filesystem::path& 
         {"lueur:scene_name", scene.name},
         {"lueur:quantity", to_string(quantity)},
         {"lueur:solver", to_string(solve.solver)},
+        {"lueur:form_factors", to_string(solve.form_factors)},
+        {"lueur:form_factor_samples", fmt::format("{}", solve.form_factor_samples)},
+        {"lueur:oracle", to_string(solve.oracle)},
+        {"lueur:link_tolerance", fmt::format("{}", solve.link_tolerance)},
+        {"lueur:matrix_memory", fmt::format("{}", solve.matrix_memory)},
         {"lueur:wavelengths", to_string(solve.wavelengths)},
         {"lueur:colour_error", fmt::format("{}", solve.colour_error)},
         {"lueur:seed", fmt::format("{}", solve.seed)},
@@ -141,8 +138,13 @@ std::expected<PictureRecipe, std::string> recipe_from_metadata(const ImageMetada
     if (const auto* name = words.find("scene_name")) recipe.scene_name = *name;
     if (const auto path = metadata.find("lueur:scene_path"); path != metadata.end()) recipe.scene_file = path->second;
     words.choice("quantity", recipe.quantity,
-                 {PictureQuantity::colour, PictureQuantity::luminance, PictureQuantity::illuminance});
-    words.choice("solver", recipe.solve.solver, {SolverKind::gathering, SolverKind::shooting});
+                 std::array{PictureQuantity::colour, PictureQuantity::luminance, PictureQuantity::illuminance});
+    words.choice("solver", recipe.solve.solver, all_solvers);
+    words.choice("form_factors", recipe.solve.form_factors, all_form_factor_methods);
+    words.number("form_factor_samples", recipe.solve.form_factor_samples);
+    words.choice("oracle", recipe.solve.oracle, all_oracles);
+    words.number("link_tolerance", recipe.solve.link_tolerance);
+    words.number("matrix_memory", recipe.solve.matrix_memory);
     if (const auto* text = words.find("wavelengths")) {
         if (const auto spec = parse_wavelengths(*text))
             recipe.solve.wavelengths = *spec;

@@ -13,7 +13,6 @@
 
 namespace lueur {
 
-std::string to_string(SolverKind solver);
 std::string to_string(PictureQuantity quantity);
 
 // Keys "lueur:..."; numbers are the shortest that read back exactly. Metres, Y up.

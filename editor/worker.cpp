@@ -27,8 +27,9 @@ constexpr std::size_t most_history = 2000; // points of the convergence plot; th
 SolveFrom solve_from(Stage stage) {
     switch (stage) {
     case Stage::mesh:
-    case Stage::transport:
         return SolveFrom::mesh;
+    case Stage::transport:
+        return SolveFrom::transport;
     case Stage::sources:
         return SolveFrom::sources;
     case Stage::reflectance:

@@ -82,6 +82,9 @@ std::vector<std::string> check(const Scene& scene) {
                    "more than 0, at most 100 (CIEDE2000)");
     checker.range(solve.element_size, 0, 1e12, "solve: element size", "0 or more");
     checker.range(solve.max_rays, 1, 1 << 20, "solve: most rays a receiver", "1..1048576");
+    checker.range(solve.form_factor_samples, 0, most_form_factor_samples, "solve: form factor samples", "0..1048576");
+    checker.range(solve.link_tolerance, 0, 1e12, "solve: link tolerance", "0 or more");
+    checker.range(solve.matrix_memory, 1, most_matrix_memory, "solve: memory of the matrix", "1..1048576 MiB");
     for (const std::string& fault : check(scene.display)) checker.faults.push_back(fault);
     return std::move(checker.faults);
 }

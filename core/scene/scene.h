@@ -139,10 +139,34 @@ struct Camera {
     bool operator==(const Camera&) const = default;
 };
 
-enum class SolverKind { gathering, shooting };
+// Words of these: core/scene/solver_words.h.
+enum class SolverKind {
+    automatic, // chosen_solver
+    gathering, // direct light apart, kept rays, truncated conjugate residuals
+    shooting,  // progressive refinement, form factors made anew for each shot
+    overshooting,
+    jacobi,       // these three on the full matrix of form factors
+    gauss_seidel, //
+    hierarchical, // links between elements of a quadtree
+    reference,    // traced paths, without radiosity
+};
+// How form factors between patches are found, by the solvers that keep a matrix or links
+// (core/transport/form_factor.h).
+enum class FormFactorMethod { automatic, analytic, point_to_disk, area_sampled, monte_carlo, hemicube, hemisphere };
+// What a link of the hierarchical solver is refined by.
+enum class RefinementOracle {
+    form_factor, // the lecture's Oracle1: F alone
+    flux,        // the lecture's Oracle2: F times the radiosity it carries
+    error,       // the estimated error of the flux it carries, visibility included
+};
 
 struct SolveSettings {
-    SolverKind solver = SolverKind::gathering;
+    SolverKind solver = SolverKind::automatic;
+    FormFactorMethod form_factors = FormFactorMethod::automatic;
+    int form_factor_samples = 0; // sub-elements, rays, or edge of the hemicube; 0: the method's default
+    RefinementOracle oracle = RefinementOracle::error;
+    double link_tolerance = 0; // of the oracle; 0: from target_error
+    int matrix_memory = 1024;  // MiB that a full matrix of form factors may take
     WavelengthsSpec wavelengths{WavelengthRule::automatic, 0};
     double colour_error = 0.5;         // CIEDE2000: the worst colour difference that auto wavelengths may be predicted
     bool compare_trichromatic = false; // the lecture's RGB approach is solved beside, on the same rays
@@ -152,6 +176,8 @@ struct SolveSettings {
     std::uint32_t seed = 1;
     bool operator==(const SolveSettings&) const = default;
 };
+inline constexpr int most_form_factor_samples = 1 << 20;
+inline constexpr int most_matrix_memory = 1 << 20; // MiB
 
 struct Scene {
     std::string name;

@@ -94,7 +94,13 @@
 //     # luminance_auto, _low, _high, _log, _isolines, _levels: the same in cd/m2
 //
 //     [solve]                      # all optional
-//     solver       = "gathering"   # gathering shooting
+//     solver       = "auto"        # auto gathering shooting overshooting jacobi gauss_seidel hierarchical reference
+//     form_factors = "auto"        # of patches, for overshooting, jacobi, gauss_seidel and hierarchical: auto analytic
+//                                  # point_to_disk area_sampled monte_carlo hemicube hemisphere
+//     form_factor_samples = 0      # sub-elements, rays, or edge of the hemicube, 0..1048576; 0: the method's default
+//     oracle       = "error"       # what links of hierarchical are refined by: form_factor flux error
+//     link_tolerance = 0           # of the oracle, 0 or more; 0: from target_error
+//     matrix_memory = 1024         # MiB that a full matrix of form factors may take, 1..1048576
 //     wavelengths  = "auto"        # auto, folded:1 .. folded:32, uniform:4 .. uniform:81, meyer:4 (6, 10),
 //                                  # gauss:3 .. gauss:20, rgb: core/spectrum/wavelengths.h
 //     colour_error = 0.5           # CIEDE2000 that auto may be predicted at worst, > 0, <= 100

@@ -3,6 +3,7 @@
 
 #include "core/scene/files.h"
 #include "core/scene/scene_description.h"
+#include "core/scene/solver_words.h"
 #include "core/scene/toml_display.h"
 #include "core/scene/toml_spectra.h"
 #include "core/scene/toml_values.h"
@@ -253,9 +254,20 @@ void Reader::read_display(const toml::table& node) {
 void Reader::read_solve(const toml::table& node) {
     TomlTable table(file, node, "[solve]");
     SolveSettings& solve = scene.solve;
-    solve.solver =
-        table.choice<SolverKind>("solver", {{"gathering", SolverKind::gathering}, {"shooting", SolverKind::shooting}})
-            .value_or(solve.solver);
+    const auto word = [&](const char* key, auto& field, const auto& all) {
+        using Enum = std::remove_reference_t<decltype(field)>;
+        std::vector<std::pair<std::string, Enum>> words;
+        for (const Enum one : all) words.emplace_back(to_string(one), one);
+        field = table.choice<Enum>(key, words).value_or(field);
+    };
+    word("solver", solve.solver, all_solvers);
+    word("form_factors", solve.form_factors, all_form_factor_methods);
+    solve.form_factor_samples = static_cast<int>(
+        table.integer("form_factor_samples", 0, most_form_factor_samples).value_or(solve.form_factor_samples));
+    word("oracle", solve.oracle, all_oracles);
+    solve.link_tolerance = table.number("link_tolerance", not_negative).value_or(solve.link_tolerance);
+    solve.matrix_memory =
+        static_cast<int>(table.integer("matrix_memory", 1, most_matrix_memory).value_or(solve.matrix_memory));
     if (const auto wavelengths = table.text("wavelengths")) {
         if (const auto spec = parse_wavelengths(*wavelengths))
             solve.wavelengths = *spec;

@@ -8,6 +8,7 @@
 
 #include "core/scene/files.h"
 #include "core/scene/scene_file.h"
+#include "core/scene/solver_words.h"
 #include "core/scene/toml_display.h"
 #include "core/scene/units.h"
 
@@ -83,16 +84,6 @@ const char* side_word(EmitSide side) {
         return "back";
     case EmitSide::both:
         return "both";
-    }
-    return "";
-}
-
-const char* solver_word(SolverKind solver) {
-    switch (solver) {
-    case SolverKind::gathering:
-        return "gathering";
-    case SolverKind::shooting:
-        return "shooting";
     }
     return "";
 }
@@ -232,7 +223,12 @@ struct Writer {
 
         const SolveSettings& solve = scene.solve;
         line("\n[solve]");
-        line("solver = \"{}\"", solver_word(solve.solver));
+        line("solver = \"{}\"", to_string(solve.solver));
+        line("form_factors = \"{}\"", to_string(solve.form_factors));
+        line("form_factor_samples = {}", solve.form_factor_samples);
+        line("oracle = \"{}\"", to_string(solve.oracle));
+        line("link_tolerance = {}", number(solve.link_tolerance));
+        line("matrix_memory = {}", solve.matrix_memory);
         line("wavelengths = \"{}\"", to_string(solve.wavelengths));
         line("colour_error = {}", number(solve.colour_error));
         line("compare_trichromatic = {}", truth(solve.compare_trichromatic));

@@ -97,20 +97,11 @@ ChannelField irradiance_channels(const Solution::State& s, std::vector<float>& u
     if (s.solving) {
         const ChannelField& indirect = s.indirect();
         const std::vector<float> ambient = s.ambient();
-        const bool shooting = s.scene->solve.solver == SolverKind::shooting;
-        if (shooting) {
-            const std::vector<float> left = s.shooting.unshot_at_vertices();
-            std::copy(left.begin(), left.end(), unshot.begin());
-        }
+        const std::vector<float> left = s.unshot_at_vertices();
+        std::copy(left.begin(), left.end(), unshot.begin());
         tbb::parallel_for(Range(0, coarse, 256), [&](const Range& range) {
-            for (std::uint32_t i = range.begin(); i < range.end(); ++i) {
+            for (std::uint32_t i = range.begin(); i < range.end(); ++i)
                 for (int k = 0; k < channels; ++k) h[i][k] = indirect[i][k] + (ambient.empty() ? 0 : ambient[k]);
-                if (shooting) continue;
-                double y = 0;
-                for (int k = 0; k < s.wavelengths->size(); ++k)
-                    y += s.wavelengths->xyz_weight[k].y * s.system.residual()[s.receivers.of_vertex[i]][k];
-                unshot[i] = static_cast<float>(std::abs(y));
-            }
         });
         std::vector<glm::uvec3> coarse_elements;
         for (std::uint32_t e = 0; e < mesh.coarse_element_count; ++e) coarse_elements.push_back(mesh.nodes[e].vertices);

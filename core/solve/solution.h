@@ -16,7 +16,7 @@
 namespace lueur {
 
 // What an edit left valid; all stages after it are redone.
-enum class SolveFrom { mesh, sources, reflectance, black, nothing };
+enum class SolveFrom { mesh, transport, sources, reflectance, black, nothing };
 
 class Solution {
 public:
@@ -25,8 +25,8 @@ public:
     Solution(Solution&&) noexcept;
     Solution& operator=(Solution&&) noexcept;
 
-    // sources: new exitances (no ray); reflectance: new reflectances or wavelengths (no ray); black: start again from
-    // zero on kept rays.
+    // transport: other rays, form factors or links on the same mesh; sources: new exitances (no ray); reflectance: new
+    // reflectances or wavelengths (no ray); black: start again from zero on kept rays.
     void update(std::shared_ptr<const Scene> scene, SolveFrom stale);
 
     // One small step (about 5 ms of work a core); stops early and resumably when `cancel` becomes true. False when

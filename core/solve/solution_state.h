@@ -13,7 +13,9 @@
 
 namespace lueur {
 
-enum class SolvePhase { mesh, sketch, light, burial, gather, sweep, refine, shoot, settled, failed };
+// Mesh to refine make what all solvers stand on; transport is a solver's own (rays, a matrix, links), solve its sweeps
+// or shots. A solver may begin before refine, which gives it a first picture early.
+enum class SolvePhase { mesh, sketch, light, burial, refine, transport, solve, settled, failed };
 
 struct Solution::State {
     std::shared_ptr<const Scene> scene;
@@ -60,7 +62,9 @@ struct Solution::State {
     std::optional<std::size_t> luminaire_of(std::uint32_t surface, bool back) const; // that shines on this side
     bool luminaire_is_lit(std::size_t luminaire) const;                              // shooting: it has shot
     const ChannelField& indirect() const;                                            // irradiance at coarse vertices
-    std::vector<float> ambient() const; // irradiance to be added for display; empty with gathering
+    std::vector<float> ambient() const;            // irradiance to be added for display; only shooting has some
+    std::vector<float> unshot_at_vertices() const; // luminous exitance at coarse vertices that is still to be sent on
+    SolverKind solver() const;                     // that is at work, never automatic
 };
 
 std::shared_ptr<const Field> compose_field(const Solution::State& state);

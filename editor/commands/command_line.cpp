@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/display/image_file.h"
+#include "core/scene/solver_words.h"
 #include "editor/commands/display_options.h"
 #include "editor/commands/number_text.h"
 #include "editor/commands/option_text.h"
@@ -25,15 +26,37 @@ void add_path(CLI::App& app, const std::string& name, const std::string& help, s
     })->required(required);
 }
 
-// `auto` is the method with the least error for its time in what was measured so far.
-constexpr SolverKind automatic_solver = SolverKind::gathering;
+// Words of the scene file; hyphens are as good as underscores.
+template <typename Enum, std::size_t N>
+void add_word(CLI::App& app, const std::string& name, const std::string& help, const std::array<Enum, N>& all,
+              std::optional<Enum>& target) {
+    add(app, name, "NAME", fmt::format("{}: {}", help, words_of(all)), [name, all, &target](const std::string& text) {
+        target = from_word(text, all);
+        if (!target) refuse(name, text, "allowed: " + words_of(all));
+    });
+}
+
+void add_form_factor_options(CLI::App& app, SolveOverrides& solve) {
+    add_word(app, "--form-factor", "How form factors between patches are found, else as the scene says",
+             all_form_factor_methods, solve.form_factors);
+    add_integer(app, "--form-factor-samples",
+                "Sub-elements, rays, or edge of the hemicube, 1 to 1048576; 0 for the method's default; else as the "
+                "scene says",
+                0, most_form_factor_samples, solve.form_factor_samples);
+    add_word(app, "--oracle", "What links of the hierarchical solver are refined by, else as the scene says",
+             all_oracles, solve.oracle);
+    add_number(app, "--link-tolerance", "TOLERANCE",
+               "Of the oracle; 0 for what the target error asks; else as the scene says", {0, 1e12},
+               solve.link_tolerance);
+    add_integer(app, "--matrix-memory",
+                "MiB that a full matrix of form factors may take, 1 to 1048576; else as the scene says (1024)", 1,
+                most_matrix_memory, solve.matrix_memory);
+}
 
 void add_solver(CLI::App& app, SolveOverrides& solve) {
-    add_choice(
-        app, "--solver", "How the light is solved, auto is gathering; else as the scene says",
-        Choices<SolverKind, 3>{
-            {{{"gathering", SolverKind::gathering}, {"shooting", SolverKind::shooting}, {"auto", automatic_solver}}}},
-        solve.solver);
+    add_word(app, "--solver", "How the light is solved, auto is gathering; else as the scene says", all_solvers,
+             solve.solver);
+    add_form_factor_options(app, solve);
 }
 
 void add_wavelength_options(CLI::App& app, SolveOverrides& solve) {
@@ -128,20 +151,16 @@ void add_measure_options(CLI::App& app, MeasureCommand& measure, MeasureWords& w
     add_integer(app, "--rays", "Hemisphere rays (paths with --solver reference) a point, 1 to 100000000 (1024)", 1,
                 100000000, words.rays);
     add(app, "--solver", "NAME",
-        "How the light is solved: gathering, shooting, auto (gathering), or reference (unbiased paths from each point, "
-        "no radiosity); "
-        "else as the scene says",
+        fmt::format("How the light is solved, auto is gathering and reference traces unbiased paths from each point, "
+                    "without radiosity; else as the scene says: {}",
+                    words_of(all_solvers)),
         [&measure, &words](const std::string& text) {
-            words.reference = text == "reference";
-            if (text == "gathering")
-                measure.batch.solve.solver = SolverKind::gathering;
-            else if (text == "shooting")
-                measure.batch.solve.solver = SolverKind::shooting;
-            else if (text == "auto")
-                measure.batch.solve.solver = automatic_solver;
-            else if (!words.reference)
-                refuse("--solver", text, "allowed: gathering, shooting, auto, reference");
+            const auto solver = from_word(text, all_solvers);
+            if (!solver) refuse("--solver", text, "allowed: " + words_of(all_solvers));
+            words.reference = solver == SolverKind::reference;
+            if (!words.reference) measure.batch.solve.solver = solver;
         });
+    add_form_factor_options(app, measure.batch.solve);
     add_batch_options(app, measure.batch);
 }
 
@@ -251,6 +270,11 @@ With --wavelengths rgb the columns irradiance_r, irradiance_g and irradiance_b a
 
 SolveSettings with_overrides(SolveSettings settings, const SolveOverrides& overrides) {
     if (overrides.solver) settings.solver = *overrides.solver;
+    if (overrides.form_factors) settings.form_factors = *overrides.form_factors;
+    if (overrides.form_factor_samples) settings.form_factor_samples = *overrides.form_factor_samples;
+    if (overrides.oracle) settings.oracle = *overrides.oracle;
+    if (overrides.link_tolerance) settings.link_tolerance = *overrides.link_tolerance;
+    if (overrides.matrix_memory) settings.matrix_memory = *overrides.matrix_memory;
     if (overrides.wavelengths) settings.wavelengths = *overrides.wavelengths;
     if (overrides.colour_error) settings.colour_error = *overrides.colour_error;
     if (overrides.target_error) settings.target_error = *overrides.target_error;

@@ -28,6 +28,11 @@ namespace lueur {
 // What the command line asks for in the place of what the scene file says.
 struct SolveOverrides {
     std::optional<SolverKind> solver;
+    std::optional<FormFactorMethod> form_factors;
+    std::optional<int> form_factor_samples;
+    std::optional<RefinementOracle> oracle;
+    std::optional<double> link_tolerance;
+    std::optional<int> matrix_memory; // MiB
     std::optional<WavelengthsSpec> wavelengths;
     std::optional<double> colour_error; // CIEDE2000
     std::optional<double> target_error; // relative RMS, 0.02 is 2 %

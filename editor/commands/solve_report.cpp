@@ -6,7 +6,7 @@
 #include <sys/resource.h>
 #include <tbb/task_arena.h>
 
-#include "editor/picture_metadata.h"
+#include "core/scene/solver_words.h"
 
 namespace lueur {
 
@@ -29,6 +29,11 @@ std::string report_json(const std::string& command, const BatchParams& params, c
     report["command"] = command;
     report["scene"] = params.scene.string();
     report["solver"] = to_string(settings.solver);
+    report["solver_in_use"] = to_string(chosen_solver(settings));
+    if (uses_form_factors(chosen_solver(settings))) {
+        report["form_factors"] = to_string(settings.form_factors);
+        report["form_factor_samples"] = settings.form_factor_samples;
+    }
     report["wavelengths"] = to_string(settings.wavelengths);
     report["wavelengths_in_use"] = status.wavelengths;
     if (status.predicted_colour_error >= 0) report["predicted_colour_error"] = status.predicted_colour_error;

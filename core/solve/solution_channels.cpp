@@ -1,0 +1,135 @@
+// Sources and paints of a solution in channels: which wavelengths the scene needs, and what everything is in them.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/scene/luminaire.h"
+#include "core/scene/spectral_content.h"
+#include "core/solve/solution_steps.h"
+#include "core/spectrum/wavelengths_plan.h"
+
+namespace lueur {
+
+using State = Solution::State;
+
+namespace {
+
+// The wavelengths that the scene's lights and paints need; the same as before where those have not changed.
+void choose_wavelengths(State& s) {
+    const SolveSettings& solve = s.scene->solve;
+    SpectralContent content = spectral_content(*s.scene);
+    const bool same_rule = s.wavelengths && s.wavelengths->asked == solve.wavelengths;
+    if (same_rule && s.content == content && s.planned_error == solve.colour_error) return;
+    switch (solve.wavelengths.rule) {
+    case WavelengthRule::automatic:
+    case WavelengthRule::folded: {
+        WavelengthsPlan plan =
+            plan_wavelengths(solve.wavelengths, content, solve.colour_error, same_rule ? s.wavelengths.get() : nullptr);
+        s.wavelengths = std::make_shared<const Wavelengths>(std::move(plan.wavelengths));
+        s.status.predicted_colour_error = plan.prediction.worst;
+        s.status.wavelengths = std::move(plan.reason);
+        break;
+    }
+    case WavelengthRule::uniform:
+    case WavelengthRule::meyer:
+    case WavelengthRule::gauss:
+    case WavelengthRule::rgb:
+        s.wavelengths = std::make_shared<const Wavelengths>(make_wavelengths(solve.wavelengths, content));
+        s.status.predicted_colour_error = -1;
+        s.status.wavelengths = fmt::format("{} channels", s.wavelengths->size());
+        break;
+    }
+    s.content = std::move(content);
+    s.planned_error = solve.colour_error;
+}
+
+// But for rounding: a lamp of the same flux in its own channels may differ in its last digit.
+bool nearly_equal(const std::vector<std::vector<double>>& a, const std::vector<std::vector<double>>& b) {
+    return std::ranges::equal(a, b, [](const std::vector<double>& one, const std::vector<double>& other) {
+        return std::ranges::equal(one, other,
+                                  [](double x, double y) { return std::abs(x - y) <= 1e-12 * std::abs(x); });
+    });
+}
+
+} // namespace
+
+void make_channels(State& s) {
+    const Scene& scene = *s.scene;
+    choose_wavelengths(s);
+    const bool compare = scene.solve.compare_trichromatic && scene.solve.wavelengths.rule != WavelengthRule::rgb &&
+                         s.wavelengths->size() + 3 <= max_channels;
+    s.trichromatic = compare ? std::optional(make_wavelengths(WavelengthsSpec{WavelengthRule::rgb, 3})) : std::nullopt;
+    const auto with_trichromatic = [&](const auto& channels_in) {
+        std::vector<double> channels = channels_in(*s.wavelengths);
+        if (s.trichromatic) {
+            const std::vector<double> more = channels_in(*s.trichromatic);
+            channels.insert(channels.end(), more.begin(), more.end());
+        }
+        return channels;
+    };
+    s.material_rho.clear();
+    for (const Material& material : scene.materials)
+        s.material_rho.push_back(
+            with_trichromatic([&](const Wavelengths& w) { return reflectance_channels(material, w); }));
+    s.luminaire_exitance.clear();
+    s.status.emitted_lumens = 0;
+    std::string dark;
+    for (const Luminaire& luminaire : scene.luminaires) {
+        s.luminaire_exitance.push_back(
+            with_trichromatic([&](const Wavelengths& w) { return exitance_channels(scene, luminaire, w); }));
+        const double lumens =
+            xyz_from_channels(*s.wavelengths, s.luminaire_exitance.back()).y * emitting_area(scene, luminaire);
+        s.status.emitted_lumens += lumens;
+        if (!(lumens > 0) && luminous_flux(scene, luminaire) > 0 && dark.empty())
+            dark =
+                fmt::format("\"{}\" is dark: its spectrum has nothing at the wavelengths of {}; folded samples see it",
+                            luminaire.name, to_string(s.wavelengths->spec));
+    }
+    s.object_luminaire = luminaire_of_objects(scene);
+    if (s.status.emitted_lumens <= 0 && dark.empty()) dark = "nothing emits light: the picture is black";
+    s.status.message = dark;
+}
+
+SameChannels take_channels(State& s) {
+    const auto wavelengths_before = s.wavelengths;
+    const auto rho_before = s.material_rho, exitance_before = s.luminaire_exitance;
+    const int channels_before = s.channels();
+    make_channels(s);
+    const bool same_channels = s.channels() == channels_before && s.wavelengths->nm == wavelengths_before->nm &&
+                               s.wavelengths->spec == wavelengths_before->spec;
+    // Another lamp of the same flux where all lamps have one spectrum: only the weights to XYZ have changed.
+    return {same_channels,
+            same_channels && s.material_rho == rho_before && nearly_equal(s.luminaire_exitance, exitance_before)};
+}
+
+double luminous(const State& s, const float* channels) {
+    double y = 0;
+    for (int c = 0; c < s.wavelengths->size(); ++c) y += s.wavelengths->xyz_weight[c].y * channels[c];
+    return y;
+}
+
+double mean_luminous_reflectance(const State& s) {
+    double mean_rho = 0, area = 0, white = 0;
+    for (const Xyz& w : s.wavelengths->xyz_weight) white += w.y;
+    for (std::uint32_t v = 0; v < s.mesh.coarse_vertex_count; ++v) {
+        const auto& rho = s.material_rho[s.material_of(s.mesh.vertices[v].surface)];
+        double y = 0;
+        for (std::size_t c = 0; c < s.wavelengths->xyz_weight.size(); ++c) y += s.wavelengths->xyz_weight[c].y * rho[c];
+        mean_rho += s.coarse_area[v] * y / white, area += s.coarse_area[v];
+    }
+    return area > 0 ? mean_rho / area : 0;
+}
+
+std::vector<float> flux_weights(const State& s) {
+    // A fitted sample may weigh less than nothing in Y: flux is not shot for its sake. The trichromatic channels ride
+    // along.
+    std::vector<float> weight(static_cast<std::size_t>(s.channels()), 0.0f);
+    double mean = 0;
+    for (const Xyz& w : s.wavelengths->xyz_weight) mean += std::max(w.y, 0.0) / s.wavelengths->size();
+    for (int c = 0; c < s.wavelengths->size(); ++c)
+        weight[c] = static_cast<float>(0.95 * std::max(s.wavelengths->xyz_weight[c].y, 0.0) + 0.05 * mean);
+    return weight;
+}
+
+} // namespace lueur

@@ -1,0 +1,246 @@
+// The gathering solver in a solution: rows of rays, as many as the target error needs, and sweeps over them.
+#include <algorithm>
+#include <cmath>
+
+#include "core/solve/ray_budget.h"
+#include "core/solve/solution_steps.h"
+#include "core/transport/time_slice.h"
+
+namespace lueur {
+
+namespace {
+
+constexpr double residual_target = 2e-4;   // |r| / |b|, worst channel
+constexpr std::uint32_t most_sweeps = 400; // a system that needs more does not converge
+constexpr double ray_share = 0.7;          // of the target error that the rays may take; interpolation has the rest
+
+using State = Solution::State;
+
+ChannelField rho_of_receivers(const State& s) {
+    ChannelField rho(s.receivers.count(), s.channels());
+    for (std::uint32_t i = 0; i < rho.count; ++i) {
+        const auto& values = s.material_rho[s.material_of(s.mesh.vertices[s.receivers.vertex[i]].surface)];
+        std::copy(values.begin(), values.end(), rho[i]);
+    }
+    return rho;
+}
+
+// Area that each receiver stands for, m^2; 0 for buried ones.
+std::vector<float> receiver_areas(const State& s) {
+    std::vector<float> area(s.receivers.count(), 0);
+    for (std::uint32_t v = 0; v < s.mesh.coarse_vertex_count; ++v)
+        if (!s.buried[v]) area[s.receivers.of_vertex[v]] += s.coarse_area[v];
+    return area;
+}
+
+// What the status calls unshot: luminous flux still to be sent on its way, of what the luminaires emit.
+double unshot_flux_share(const State& s) {
+    double flux = 0;
+    const std::vector<float> area = receiver_areas(s);
+    for (std::uint32_t i = 0; i < s.receivers.count(); ++i) {
+        flux += area[i] * std::abs(luminous(s, s.system.residual()[i]));
+    }
+    return s.status.emitted_lumens > 0 ? flux / s.status.emitted_lumens : 0;
+}
+
+// Direct light reflected at the fine vertices: rho D E, one row more than vertices, the last zero.
+ChannelField reflected_direct(const State& s) {
+    const std::uint32_t count = static_cast<std::uint32_t>(s.mesh.vertices.size());
+    const int channels = s.channels();
+    const std::size_t emitters = s.direct->emitter_count();
+    ChannelField b(count + 1, channels);
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, count, 256),
+                      [&](const tbb::blocked_range<std::uint32_t>& range) {
+                          for (std::uint32_t v = range.begin(); v < range.end(); ++v) {
+                              const auto& rho = s.material_rho[s.material_of(s.mesh.vertices[v].surface)];
+                              const float* d = s.direct->at_vertex(v);
+                              for (std::size_t l = 0; l < emitters; ++l) {
+                                  if (d[l] == 0) continue;
+                                  for (int c = 0; c < channels; ++c)
+                                      b[v][c] += d[l] * static_cast<float>(rho[c] * s.luminaire_exitance[l][c]);
+                              }
+                          }
+                      });
+    return b;
+}
+
+// Equal-flux direct irradiance at all vertices: what the ray budget looks at.
+std::vector<float> equal_flux_direct(const State& s) {
+    std::vector<float> direct(s.mesh.vertices.size(), 0);
+    for (std::size_t v = 0; v < direct.size(); ++v)
+        for (std::size_t l = 0; l < s.direct->emitter_count(); ++l)
+            if (s.direct->emitters()[l].area > 0)
+                direct[v] += s.direct->at_vertex(static_cast<std::uint32_t>(v))[l] / s.direct->emitters()[l].area;
+    return direct;
+}
+
+void update_error(State& s) {
+    const std::uint32_t receivers = s.receivers.count();
+    ScalarRadiosity radiosity{std::vector<float>(receivers), std::vector<float>(s.mesh.vertices.size())};
+    // Direct irradiance and its reflection: luminous exitance of each luminaire, and its luminous part on each paint.
+    std::vector<double> exitance;
+    std::vector<std::vector<double>> reflected(s.material_rho.size());
+    for (const auto& e : s.luminaire_exitance) {
+        exitance.push_back(xyz_from_channels(*s.wavelengths, std::span<const double>(e)).y);
+        for (std::size_t m = 0; m < s.material_rho.size(); ++m) {
+            double y = 0;
+            for (std::size_t c = 0; c < s.wavelengths->xyz_weight.size(); ++c)
+                y += s.wavelengths->xyz_weight[c].y * s.material_rho[m][c] * e[c];
+            reflected[m].push_back(y);
+        }
+    }
+    std::vector<float> direct(receivers, 0);
+    for (std::uint32_t i = 0; i < receivers; ++i) {
+        radiosity.indirect[i] = static_cast<float>(luminous(s, s.system.radiosity()[i]));
+        for (std::size_t l = 0; l < exitance.size(); ++l)
+            direct[i] += static_cast<float>(s.direct->at_vertex(s.receivers.vertex[i])[l] * exitance[l]);
+    }
+    for (std::uint32_t v = 0; v < s.mesh.vertices.size(); ++v) {
+        const float* d = s.direct->at_vertex(v);
+        const auto& on_paint = reflected[s.material_of(s.mesh.vertices[v].surface)];
+        for (std::size_t l = 0; l < exitance.size(); ++l) radiosity.direct[v] += static_cast<float>(d[l] * on_paint[l]);
+    }
+
+    const double rays = ray_error(s.passes, radiosity, direct, receiver_areas(s));
+    const double unsolved = s.status.unshot_share / std::max(1e-3, 1 - mean_luminous_reflectance(s));
+    const double interpolation = s.direct->misfit();
+    s.status.estimated_error =
+        std::min(1.0, std::sqrt(rays * rays + unsolved * unsolved + interpolation * interpolation));
+}
+
+// In a closed scene that absorbs nothing the radiosity grows without end: say so instead of iterating.
+bool has_no_finite_solution(const State& s) {
+    if (s.status.emitted_lumens <= 0 || s.passes.empty()) return false;
+    for (std::uint32_t i = 0; i < s.receivers.count(); ++i) {
+        if (s.receivers.buried[i]) continue;
+        const auto& rho = s.material_rho[s.material_of(s.mesh.vertices[s.receivers.vertex[i]].surface)];
+        if (*std::min_element(rho.begin(), rho.end()) < 1 - 1e-7) return false;
+        if (row_sum(s.passes, i, s.receivers.count()) < 1 - 1e-7) return false;
+    }
+    return true;
+}
+
+void refresh_indirect(State& s) {
+    for (std::uint32_t v = 0; v < s.indirect_irradiance.count; ++v) {
+        const std::uint32_t i = s.receivers.of_vertex[v];
+        for (int c = 0; c < s.channels(); ++c)
+            s.indirect_irradiance[v][c] = s.gathered_direct[i][c] + s.system.gathered()[i][c];
+    }
+}
+
+// New sources, paints or rays: one reflection of direct light is gathered anew, then the system holds them.
+void gather_direct(State& s, bool new_rays) {
+    const std::uint32_t n = s.receivers.count();
+    const std::atomic<bool> never{false};
+    s.gathered_direct = ChannelField(n, s.channels());
+    s.indirect_irradiance = ChannelField(s.mesh.coarse_vertex_count, s.channels());
+    apply_rows(s.passes, RayEnds::fine, reflected_direct(s), s.gathered_direct, never);
+    if (!s.solving) s.system = GatherSystem(n, s.channels(), receiver_areas(s));
+    if (new_rays) s.system.set_rows(s.passes);
+    s.system.set_sources(rho_of_receivers(s), s.gathered_direct);
+    s.solving = true;
+    s.status.sweeps = 0;
+    refresh_indirect(s);
+}
+
+std::uint32_t most_passes(const State& s) {
+    constexpr int group = independent_sets * rays_per_pass;
+    return independent_sets * std::max<std::uint32_t>(1, static_cast<std::uint32_t>(s.scene->solve.max_rays) / group);
+}
+
+// More rays? Asked each time there are as many as were wanted; the answer depends on the geometry only. The error of a
+// quasi-random set falls somewhat faster than one over the root of its rays; two thirds of the way that would leave are
+// gone at once.
+void plan_passes(State& s) {
+    const std::uint32_t now = static_cast<std::uint32_t>(s.passes.size());
+    if (s.rays_planned || now < s.passes_wanted) return;
+    const double target = ray_share * s.scene->solve.target_error;
+    const double error = grey_ray_error(s.passes, s.receivers.vertex, equal_flux_direct(s), receiver_areas(s));
+    if (error <= target || now >= most_passes(s)) {
+        s.rays_planned = true;
+        return;
+    }
+    const double needed = now * std::pow(error / target, 4.0 / 3);
+    std::uint32_t next = now + std::max(1u, static_cast<std::uint32_t>(0.67 * (needed - now)));
+    next = (next + independent_sets - 1) / independent_sets * independent_sets;
+    s.passes_wanted = std::min(most_passes(s), next);
+}
+
+} // namespace
+
+void start_gathering(State& s, bool same_sources) {
+    if (std::exchange(s.pass_open, false)) s.passes.pop_back(); // half traced: again
+    if (s.passes.empty()) {
+        // The number of rays follows from the settings and the geometry, never from what was there before.
+        s.passes_wanted = s.refined ? independent_sets : 1;
+        s.rays_planned = false;
+        s.phase = SolvePhase::transport;
+        return;
+    }
+    s.status.sweeps = 0;
+    if (!s.solving || !same_sources) gather_direct(s, !s.solving);
+    s.phase = SolvePhase::solve;
+}
+
+void trace_gathering_rows(State& s, const std::atomic<bool>& cancel) {
+    s.status.stage = SolveStage::gathering_rays;
+    if (!s.pass_open) {
+        s.passes.push_back(make_gather_pass(s.mesh, s.receivers));
+        s.cursor = 0;
+        s.pass_open = true;
+    }
+    const std::uint32_t pass = static_cast<std::uint32_t>(s.passes.size()) - 1;
+    const std::vector<std::uint8_t> buried = s.all_buried();
+    if (!run_slice(s.cursor, s.receivers.count(), 64, cancel, [&](std::uint32_t first, std::uint32_t last) {
+            trace_gather_rays(*s.world, s.mesh, s.origins, s.receivers, buried, s.scene->solve.seed, pass, first, last,
+                              s.passes.back());
+        }))
+        return;
+    s.pass_open = false;
+    s.status.rays += std::uint64_t(s.receivers.count()) * rays_per_pass;
+    s.status.rays_per_receiver = static_cast<std::uint32_t>(s.passes.size()) * rays_per_pass;
+    s.status.row_entries = std::uint64_t(s.receivers.count()) * s.status.rays_per_receiver;
+    if (s.passes.size() < s.passes_wanted) return;
+    gather_direct(s, true);
+    s.phase = SolvePhase::solve;
+}
+
+void step_gathering(State& s, const std::atomic<bool>& cancel) {
+    s.status.stage = SolveStage::solving;
+    if (has_no_finite_solution(s)) return fail(s, no_finite_solution);
+    if (s.system.relative_residual() > residual_target) {
+        if (!s.system.sweep(s.passes, cancel)) return;
+        ++s.status.sweeps;
+        refresh_indirect(s);
+        if (s.system.diverged() || s.status.sweeps > most_sweeps)
+            return fail(s, "the solver does not converge on this scene; a reflectance is too close to 1");
+    }
+    s.status.unshot_share = unshot_flux_share(s);
+    if (s.system.relative_residual() > residual_target) return;
+    update_error(s);
+    if (!s.refined) {
+        s.phase = SolvePhase::refine;
+        return;
+    }
+    plan_passes(s);
+    if (s.passes.size() < s.passes_wanted) {
+        s.phase = SolvePhase::transport;
+        return;
+    }
+    settle(s);
+}
+
+double gathering_progress(const State& s) {
+    if (s.receivers.count() == 0 || s.passes_wanted == 0) return 0;
+    const double traced = double(s.passes.size()) - (s.pass_open ? 1 - double(s.cursor) / s.receivers.count() : 0);
+    return std::clamp(traced / s.passes_wanted, 0.0, 1.0);
+}
+
+std::vector<float> unshot_of_gathering(const State& s) {
+    std::vector<float> unshot(s.mesh.coarse_vertex_count);
+    for (std::uint32_t v = 0; v < unshot.size(); ++v)
+        unshot[v] = static_cast<float>(std::abs(luminous(s, s.system.residual()[s.receivers.of_vertex[v]])));
+    return unshot;
+}
+
+} // namespace lueur

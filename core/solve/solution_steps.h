@@ -1,0 +1,71 @@
+// The steps of a solution, for core/solve only: what solution.cpp calls in which phase.
+//
+// A solver plugs in with start (sources, paints or its transport are new: says in which phase it goes on), its
+// transport if it keeps one, and step; solution.cpp has one switch for each. What it shows: Solution::State's
+// indirect(), luminaire_is_lit(), ambient() and unshot_at_vertices(), in solution_state.cpp.
+#pragma once
+
+#include <atomic>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/solve/solution_state.h"
+
+namespace lueur {
+
+inline constexpr const char* no_finite_solution =
+    "no finite solution: the scene is closed and every surface reflects everything; some reflectance must be below 1";
+
+void settle(Solution::State& s);
+void fail(Solution::State& s, std::string message);
+
+// Sends the chosen solver on its way on whatever transport there is. same_sources: neither exitances nor reflectances
+// have changed since it last ran.
+void start_solver(Solution::State& s, bool same_sources = false);
+
+// Channels: solution_channels.cpp.
+struct SameChannels {
+    bool channels, sources;
+};
+void make_channels(Solution::State& s);
+SameChannels take_channels(Solution::State& s);                   // anew; what stayed the same
+double luminous(const Solution::State& s, const float* channels); // Y of channels
+double mean_luminous_reflectance(const Solution::State& s);       // over the area of the scene
+// Of each channel in "the largest unshot flux": luminous, and a little of all wavelengths so that blue is not
+// forgotten.
+std::vector<float> flux_weights(const Solution::State& s);
+
+// Transport that all share: solution_transport.cpp.
+void step_mesh(Solution::State& s);
+void step_sketch(Solution::State& s, const std::atomic<bool>& cancel);
+void step_light(Solution::State& s, const std::atomic<bool>& cancel);
+void step_burial(Solution::State& s, const std::atomic<bool>& cancel);
+void step_refine(Solution::State& s, const std::atomic<bool>& cancel); // direct light on the fine mesh
+
+// Gathering on kept rows: solution_gathering.cpp.
+void start_gathering(Solution::State& s, bool same_sources);
+void trace_gathering_rows(Solution::State& s, const std::atomic<bool>& cancel);
+void step_gathering(Solution::State& s, const std::atomic<bool>& cancel);
+double gathering_progress(const Solution::State& s);
+std::vector<float> unshot_of_gathering(const Solution::State& s);
+
+// Progressive shooting: solution_shooting.cpp.
+void start_shooting(Solution::State& s);
+void step_shooting(Solution::State& s, const std::atomic<bool>& cancel, bool one_shot);
+
+// Jacobi, Gauss-Seidel and overshooting on the full matrix: solution_matrix.cpp.
+void start_matrix(Solution::State& s, bool same_sources);
+void build_matrix(Solution::State& s, const std::atomic<bool>& cancel);
+void step_matrix(Solution::State& s, const std::atomic<bool>& cancel, bool one_shot);
+
+// Hierarchical radiosity: solution_hierarchical.cpp.
+void start_hierarchical(Solution::State& s, bool same_sources);
+void make_links(Solution::State& s, const std::atomic<bool>& cancel);
+void step_hierarchical(Solution::State& s, const std::atomic<bool>& cancel);
+
+// Traced paths: solution_reference.cpp.
+void start_reference(Solution::State& s, bool same_sources);
+void step_reference(Solution::State& s, const std::atomic<bool>& cancel);
+
+} // namespace lueur
