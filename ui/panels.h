@@ -13,6 +13,7 @@ std::optional<Edit> materials_panel(const Document& document, const Snapshot& sn
 std::optional<Edit> luminaires_panel(const Document& document, const Snapshot& snapshot, UiState& state);
 std::optional<Edit> display_panel(const Document& document, const Snapshot& snapshot, UiState& state);
 std::optional<Edit> solver_panel(const Document& document, const Snapshot& snapshot, UiState& state);
+std::optional<Edit> chart_panel(const Document& document, const Snapshot& snapshot, UiState& state);
 
 // These only show.
 void convergence_plot(const Snapshot& snapshot, double target_error, UiState& state, float width, float height);

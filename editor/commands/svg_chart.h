@@ -41,10 +41,10 @@ struct ChartPanel {
     std::string title;
     ChartAxis x, y;
     std::vector<ChartCurve> curves;
-    std::optional<double> level;   // a line across at this y
-    std::vector<glm::dvec2> front; // a wide band behind the curves: steps down from point to point
-    std::vector<glm::dvec2> dots;  // small, without a curve
-    std::vector<ChartFailure> failures;
+    std::optional<double> level{};   // a line across at this y
+    std::vector<glm::dvec2> front{}; // a wide band behind the curves: steps down from point to point
+    std::vector<glm::dvec2> dots{};  // small, without a curve
+    std::vector<ChartFailure> failures{};
 };
 
 struct Chart {
@@ -55,7 +55,7 @@ struct Chart {
     std::size_t columns = 1;
     double panel_width = 320, panel_height = 250; // of the plotted area, in pixels
     double names_width = 0; // of a column right of each panel with the name of each curve at its end; 0: a legend above
-    std::vector<std::string> remarks; // lines under the panels; long ones are wrapped
+    std::vector<std::string> remarks{}; // lines under the panels; long ones are wrapped
 };
 
 std::string svg_text(const Chart& chart);

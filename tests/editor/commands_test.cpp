@@ -368,6 +368,7 @@ TEST_F(Furnace, PlanTellsMistakesAndWritesNothing) {
 
 TEST_F(Furnace, ChartsSpectra) {
     ChartCommand chart;
+    chart.of = ChartSubject::spectra;
     chart.batch.scene = file("furnace.toml");
     chart.output = file("chart.svg");
     chart.csv = file("chart.csv");
@@ -398,6 +399,7 @@ TEST_F(Furnace, ChartsSpectra) {
 
 TEST_F(Furnace, AnInterruptedChartWritesNothing) {
     ChartCommand chart;
+    chart.of = ChartSubject::spectra;
     chart.batch.scene = file("furnace.toml");
     chart.output = file("chart.svg");
     chart.csv = file("nowhere") / "chart.csv";
