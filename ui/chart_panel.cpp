@@ -349,6 +349,7 @@ std::optional<Edit> chart_panel(const Document& document, const Snapshot& snapsh
     if (!taken) return {};
     auto solve = document.scene().solve;
     solve.solver = taken->solver;
+    if (solve.form_factors != taken->form_factors) solve.form_factor_samples = 0; // a number means another thing there
     solve.form_factors = taken->form_factors;
     if (has_oracle(taken->solver)) solve.oracle = taken->oracle;
     if (solve == document.scene().solve) return {};

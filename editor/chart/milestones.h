@@ -10,6 +10,9 @@ namespace lueur {
 
 class Milestones {
 public:
+    explicit Milestones(bool count_shots) // steps take one shot at a time: what is done is known shot by shot
+        : count_shots_(count_shots) {}
+
     // After each step. True where the solver has finished its first, 2nd, 3rd, 4th, 5th, 7th ... (each time a third
     // more) sweep over new rays or shot.
     bool due(const SolveStatus& status);
@@ -19,6 +22,7 @@ private:
         std::uint32_t seen = 0, next = 1;
         bool passed(std::uint32_t now);
     };
+    bool count_shots_;
     Counter sweeps_, shots_;
     std::uint32_t rays_per_receiver_ = 0;
 };

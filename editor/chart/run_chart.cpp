@@ -16,6 +16,7 @@ namespace lueur {
 
 namespace {
 
+constexpr int most_reference_paths = 1 << 20;
 constexpr double astray = 10; // relative RMS error of a solver that has lost its way
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -80,13 +81,28 @@ private:
         if (!base_->world()) return false;
         points_ = surface_points(*base_, params_.points, scene_.solve.seed);
         what_ = "reference paths";
-        truth_ =
-            measure_points(*base_, points_, {MeasureAt::reference, params_.reference_paths, scene_.solve.seed + 99},
-                           cancel_, [&](double) { show(); });
+        int paths = params_.reference_paths;
+        if (paths <= 0) {
+            constexpr int pilot = 256;
+            const auto start = std::chrono::steady_clock::now();
+            trace_truth(pilot);
+            const double seconds = seconds_since(start), error = error_statistics(truth_, truth_).reference_error;
+            paths = pilot;
+            while (paths < most_reference_paths &&
+                   error > params_.reference_error * std::sqrt(static_cast<double>(paths) / pilot) &&
+                   2 * paths * seconds / pilot < params_.time_limit / 3)
+                paths *= 2;
+        }
+        trace_truth(paths);
         chart_.points = static_cast<int>(truth_.size());
-        chart_.reference_paths = params_.reference_paths;
+        chart_.reference_paths = paths;
         chart_.reference_error = error_statistics(truth_, truth_).reference_error;
         return !truth_.empty();
+    }
+
+    void trace_truth(int paths) {
+        truth_ = measure_points(*base_, points_, {MeasureAt::reference, paths, scene_.solve.seed + 99}, cancel_,
+                                [&](double) { show(); });
     }
 
     std::optional<std::string> reason_not_to_start(const ChartMethod& method) const {
@@ -148,9 +164,11 @@ private:
 
     void step_to_the_end(ChartRun& run, Solution& solution) {
         constexpr double bytes_per_ray = 8; // its end in the coarse and in the fine mesh
-        Milestones milestones;
+        // Shots of the other solvers are taken by the clock, as in the window: shot by shot would cost them time.
+        const bool shot_by_shot = run.method.solver == SolverKind::shooting;
+        Milestones milestones(shot_by_shot);
         for (;;) {
-            const bool more = solution.step(cancel_, true);
+            const bool more = solution.step(cancel_, shot_by_shot);
             if (cancel_) return;
             const SolveStatus& status = solution.status();
             show();

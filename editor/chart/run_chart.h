@@ -9,10 +9,13 @@
 namespace lueur {
 
 struct ChartParams {
-    int points = 400;           // random surface points to measure at
-    int reference_paths = 8192; // a point
-    double time_limit = 90;     // s for everything; a run that has begun is ended
-    double run_limit = 0;       // s of solving for one run; 0: a twelfth of time_limit
+    int points = 400; // random surface points to measure at
+    // Paths of the reference at each point; 0: as many (a power of two) as its standard error needs to come down to
+    // reference_error, but no more than fit in a third of the time limit.
+    int reference_paths = 0;
+    double reference_error = 0.01;
+    double time_limit = 90; // s for everything; a run that has begun is ended
+    double run_limit = 0;   // s of solving for one run; 0: a twelfth of time_limit
     std::vector<ChartMethod> methods = all_chart_methods();
     std::size_t levels = chart_budgets().size();
     double row_memory = 1024; // MiB that kept rays may take; a matrix has the scene's own limit (solve.matrix_memory)

@@ -147,8 +147,7 @@ public:
         out +=
             text_at(0, 0, panel_.y.label, "middle", ink, 12,
                     fmt::format(" transform=\"translate({:.1f} {:.1f}) rotate(-90)\"", x_ - 42, y_ + panel_height / 2));
-        for (const glm::dvec2& dot : panel_.dots)
-            out += mark_svg(ChartMark::circle, across(dot.x), up(dot.y), 1.3, "#b9bbbd");
+        if (!panel_.dots.empty()) out += dots_svg();
         for (const ChartCurve& curve : panel_.curves) out += curve_svg(curve);
         for (const ChartFailure& failure : panel_.failures)
             out += fmt::format("<path d=\"M{:.1f} {:.1f}m-4 -4l8 8m-8 0l8 -8\" stroke=\"{}\" stroke-width=\"2\"/>\n",
@@ -189,6 +188,13 @@ private:
                    "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"{}/>\n",
                    path, colour, curve.dashed ? 1.1 : 2.0, curve.dashed ? " stroke-dasharray=\"5 3\"" : "") +
                marks;
+    }
+
+    // Hundreds of them in one path: strokes without length under round caps.
+    std::string dots_svg() const {
+        std::string path;
+        for (const glm::dvec2& dot : panel_.dots) path += fmt::format("M{:.1f} {:.1f}h0", across(dot.x), up(dot.y));
+        return fmt::format("<path d=\"{}\" stroke=\"#b9bbbd\" stroke-width=\"2.6\" stroke-linecap=\"round\"/>\n", path);
     }
 
     // From each point to the time of the next at the same error, then down: what is best until then.

@@ -10,6 +10,7 @@
 #include "core/scene/solver_words.h"
 #include "editor/chart/chart_picture.h"
 #include "editor/chart/chart_table.h"
+#include "editor/chart/edit_times.h"
 #include "editor/chart/milestones.h"
 #include "editor/chart/run_chart.h"
 #include "tests/support/scenes.h"
@@ -151,7 +152,7 @@ TEST(MethodChart, HasEveryMethodOnceAndBudgetsThatGrow) {
 }
 
 TEST(Milestones, AreSetByWorkNotByTheClock) {
-    Milestones milestones;
+    Milestones milestones(true), without_shots(false);
     SolveStatus status;
     EXPECT_FALSE(milestones.due(status)) << "nothing has been done";
     std::vector<std::uint32_t> due;
@@ -172,6 +173,9 @@ TEST(Milestones, AreSetByWorkNotByTheClock) {
     EXPECT_FALSE(milestones.due(status));
     status.shots = 133;
     EXPECT_TRUE(milestones.due(status));
+    EXPECT_TRUE(without_shots.due(status)) << "the sweep";
+    status.shots = 500;
+    EXPECT_FALSE(without_shots.due(status));
 }
 
 TEST(ChartTable, ReadsWhatItWrites) {
@@ -283,6 +287,17 @@ TEST(RunChart, ChartsASmallRoom) {
         for (std::size_t k = 0; k < chart.runs[i].points.size(); ++k)
             EXPECT_EQ(again.runs[i].points[k].error.rms, chart.runs[i].points[k].error.rms);
     }
+}
+
+TEST(EditTimes, AreThoseOfASceneThatSettles) {
+    const auto times = edit_times(test::small_room(), 60, never);
+    ASSERT_TRUE(times);
+    EXPECT_GT(times->reflectance, 0);
+    EXPECT_GT(times->dimmer, 0);
+    EXPECT_FALSE(edit_times(test::small_room(), 1e-9, never)) << "no time";
+    const std::atomic<bool> always{true};
+    EXPECT_FALSE(edit_times(test::small_room(), 60, always));
+    EXPECT_FALSE(edit_times({}, 60, never)) << "nothing to edit";
 }
 
 TEST(RunChart, MarksWhatDoesNotSettle) {
