@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/solve/gather_system.h"
+#include "core/solve/patch_solve.h"
 #include "core/solve/shooting.h"
 #include "core/solve/solution.h"
 #include "core/transport/direct_transport.h"
@@ -52,8 +53,9 @@ struct Solution::State {
     ChannelField gathered_direct;     // irradiance at receivers after one reflection of direct light
     ChannelField indirect_irradiance; // gathered_direct + W U at the coarse vertices, refreshed after sweeps
     Shooting shooting;
-    bool solving = false;  // system or shooting hold this scene's sources
-    bool edit_open = true; // last_edit_seconds is still to be set
+    PatchSolve patch_solve; // Jacobi, Gauss-Seidel, overshooting
+    bool solving = false;   // system or shooting hold this scene's sources
+    bool edit_open = true;  // last_edit_seconds is still to be set
 
     int channels() const { return wavelengths->size() + (trichromatic ? trichromatic->size() : 0); }
     // Coarse vertices by their own rays, fine ones where they are dark and inside a solid.

@@ -56,7 +56,6 @@ struct Occluders {
     std::vector<PlanarPolygon> polygons;
     const World* world = nullptr; // also of the two patches themselves; not owned
 };
-bool is_visible(const Occluders& occluders, glm::dvec3 from, glm::dvec3 to);
 
 // F from `from` to `to`. `automatic` takes the cheapest method that is exact enough and within its region.
 FormFactorEstimate form_factor(const PlanarPolygon& from, const PlanarPolygon& to, const Occluders& occluders,

@@ -69,7 +69,8 @@ std::expected<void, int> BatchSession::solve(Solution& solution, bool geometry_o
         bar_.show(to_string(status.stage), status.progress, error_text(status));
     };
     solved_ = solve_batch(solution, params, cancel_);
-    for (const auto stage : {SolveStage::meshing, SolveStage::direct, SolveStage::gathering_rays, SolveStage::solving})
+    for (const auto stage : {SolveStage::meshing, SolveStage::direct, SolveStage::gathering_rays,
+                             SolveStage::form_factors, SolveStage::solving})
         if (const double seconds = solved_.stage_seconds[static_cast<std::size_t>(stage)]; seconds > 0)
             stage_seconds_.emplace_back(to_string(stage), seconds);
     bar_.wipe();
