@@ -14,6 +14,7 @@
 //   hemisphere     ray-cast item buffers at points of i
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -37,6 +38,8 @@ struct FormFactorSettings {
     int resolution = 0; // pixels along an edge of the hemicube (128); square root of a hemisphere's rays (64)
     HemisphereCells cells = HemisphereCells::equal;
     std::uint32_t seed = 1;
+    const std::atomic<bool>* cancel = nullptr; // set: what is under way ends soon, with a value of no meaning
+    bool is_cancelled() const { return cancel && cancel->load(std::memory_order_relaxed); }
 };
 // From SolveSettings::form_factor_samples, which is the one number that matters most to each method. Rows of a matrix
 // are made with fewer samples than single pairs: many patches share the error.

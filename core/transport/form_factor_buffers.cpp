@@ -24,15 +24,19 @@ Placement placement(const PlanarPolygon& polygon, int k, int count, std::uint64_
             2 * std::numbers::pi * own.next()};
 }
 
-// `pixel`: the largest form factor of one; what no buffer has seen may still be that large.
-MethodEstimate mean_of(const std::vector<double>& values, double pixel, std::uint64_t cost) {
-    const auto n = static_cast<double>(values.size());
+// `pixel`: the largest form factor of one; what no buffer has seen may still be that large. Where the patches are
+// nearer than the points are to each other, one point more or less beside the other patch is a step of its whole value.
+MethodEstimate mean_of(const PolygonPair& pair, const std::vector<double>& values, double pixel, std::uint64_t cost) {
+    const auto n = std::max(1.0, static_cast<double>(values.size()));
     double sum = 0, squares = 0;
     for (const double value : values) sum += value;
     const double mean = sum / n;
     for (const double value : values) squares += (value - mean) * (value - mean);
+    if (values.empty()) return {};
     if (values.size() < 2) return {mean, -1, cost};
-    return {mean, std::sqrt(squares / (n * (n - 1)) + pixel * pixel / n), cost};
+    const double spacing = 2 * radius(pair.from) / std::sqrt(n);
+    const double step = std::max(0.0, 1 - distance(pair.from, pair.to) / spacing) * std::ranges::max(values) / n;
+    return {mean, std::sqrt(squares / (n * (n - 1)) + pixel * pixel / n) + step, cost};
 }
 
 // Distance along a ray at which it goes through a polygon; 0: it does not.
@@ -56,7 +60,7 @@ MethodEstimate hemicube(const PolygonPair& pair, const FormFactorSettings& setti
     Hemicube cube(settings.resolution);
     std::vector<double> values;
     std::uint64_t cost = 0;
-    for (int k = 0; k < settings.samples; ++k) {
+    for (int k = 0; k < settings.samples && !settings.is_cancelled(); ++k) {
         const Placement at = placement(pair.from, k, settings.samples, settings.seed);
         cube.place(at.eye, pair.from.normal, at.turn);
         cube.draw(pair.to.corners, pair.to.normal, 0);
@@ -75,14 +79,14 @@ MethodEstimate hemicube(const PolygonPair& pair, const FormFactorSettings& setti
         values.push_back(sum);
     }
     const double step = 2.0 / settings.resolution;
-    return mean_of(values, step * step / std::numbers::pi, cost);
+    return mean_of(pair, values, step * step / std::numbers::pi, cost);
 }
 
 MethodEstimate hemisphere(const PolygonPair& pair, const FormFactorSettings& settings) {
     std::vector<double> values;
     std::uint64_t cost = 0;
     double largest = 0;
-    for (int k = 0; k < settings.samples; ++k) {
+    for (int k = 0; k < settings.samples && !settings.is_cancelled(); ++k) {
         const Placement at = placement(pair.from, k, settings.samples, settings.seed);
         const Axes axes(pair.from.normal, at.turn);
         RandomStream random(settings.seed, static_cast<std::uint64_t>(k) + 0x10000);
@@ -98,7 +102,7 @@ MethodEstimate hemisphere(const PolygonPair& pair, const FormFactorSettings& set
         cost += rays.count();
         values.push_back(sum);
     }
-    return mean_of(values, largest, cost);
+    return mean_of(pair, values, largest, cost);
 }
 
 } // namespace lueur

@@ -1,6 +1,7 @@
 // Form factors that do not depend on any sampling: without occluders, and behind a few of them.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <span>
 
@@ -22,7 +23,8 @@ ExactFormFactor exact_form_factor(const PlanarPolygon& from, const PlanarPolygon
 // exactly, by cutting the shadows out of it. Refined until the estimated error is `tolerance` of the value or `most`
 // points are used.
 ExactFormFactor occluded_form_factor(const PlanarPolygon& from, const PlanarPolygon& to,
-                                     std::span<const PlanarPolygon> occluders, double tolerance, std::uint64_t most);
+                                     std::span<const PlanarPolygon> occluders, double tolerance, std::uint64_t most,
+                                     const std::atomic<bool>* cancel = nullptr);
 
 // Lambert's formula for a polygon that lies above the element's horizon; its magnitude is that of the terms, which
 // cancel. Signed: below 0 where the polygon is seen from behind.

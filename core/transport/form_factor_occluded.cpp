@@ -96,7 +96,8 @@ struct Cell { // a triangle of the quadrature
 } // namespace
 
 ExactFormFactor occluded_form_factor(const PlanarPolygon& from, const PlanarPolygon& to,
-                                     std::span<const PlanarPolygon> occluders, double tolerance, std::uint64_t most) {
+                                     std::span<const PlanarPolygon> occluders, double tolerance, std::uint64_t most,
+                                     const std::atomic<bool>* cancel) {
     const PlanarPolygon i = in_front_of(from, to), j = in_front_of(to, from);
     if (!(i.area > 0) || !(j.area > 0)) return {};
     // What of an occluder can stand between: in front of both planes.
@@ -148,6 +149,7 @@ ExactFormFactor occluded_form_factor(const PlanarPolygon& from, const PlanarPoly
     for (const Cell& cell : first) split(cell);
     while (error > tolerance * std::abs(value) && result.evaluations + 28 <= most && !cells.empty()) {
         const Cell worst = cells.top();
+        if (cancel && cancel->load(std::memory_order_relaxed)) break;
         if (!(worst.error > 0)) break;
         cells.pop();
         value -= worst.value;

@@ -27,39 +27,79 @@ double share_variance(double share, double n) {
 }
 
 struct ElementSum {
-    double value = 0, shadow_variance = 0;
+    double value = 0, error = 0;
     std::uint64_t cost = 0;
+    // Of each sub-element of i, for the uncertainty of the shadows.
+    struct Part {
+        double whole, share, targets; // weight F without occluders, visible share, how many points it was taken from
+    };
+    std::vector<Part> parts;
 };
 
-ElementSum disk_sum(const PolygonPair& pair, int count) {
+// A shadow's edge goes through sub-elements of j (its share is a sample) and lies between those of i (the shares are).
+double shadow_variance(const ElementSum& sum) {
+    double whole = 0, seen = 0, variance = 0;
+    for (const auto& part : sum.parts) {
+        whole += part.whole;
+        seen += part.whole * part.share;
+    }
+    if (!(whole > 0)) return 0;
+    for (const auto& part : sum.parts) {
+        const double deviation = part.share - seen / whole;
+        variance += part.whole * part.whole * (share_variance(part.share, part.targets) + deviation * deviation);
+    }
+    return variance;
+}
+
+MethodEstimate estimate_of(const PolygonPair& pair, const ElementSum& sum) {
+    const double shadows = pair.may_be_occluded() ? std::sqrt(shadow_variance(sum)) : 0;
+    return {sum.value, sum.error + shadows + 1e-15, sum.cost};
+}
+
+} // namespace
+
+// F = 1/A_i sum_q dA_i^q sum_p dA_j^p cos cos / (pi r^2 + dA_j^p) h: Wallace, Elmquist & Haines 1989, eq. 5, averaged
+// over sub-elements of i. Exact for a disk on the axis. What the shape of elements changes is of the order of their
+// size^2 / r^2, and anything where they are larger than they are apart.
+MethodEstimate point_to_disk(const PolygonPair& pair, const FormFactorSettings& settings) {
     ElementSum sum;
-    const auto shooters = sub_elements(pair.to, count);
-    for (const SubElement& i : sub_elements(pair.from, count)) {
-        double all = 0, seen = 0;
+    const auto shooters = sub_elements(pair.to, settings.samples);
+    for (const SubElement& i : sub_elements(pair.from, settings.samples)) {
+        if (settings.is_cancelled()) break;
+        double all = 0, seen = 0, error = 0;
         for (const SubElement& j : shooters) {
             ++sum.cost;
             const double disk = j.area * disk_kernel(pair, i.centre, j.centre, j.area);
+            const glm::dvec3 d = j.centre - i.centre;
             all += disk;
+            error += disk * std::min(1.0, (i.size * i.size + j.size * j.size) / (2 * pi * glm::dot(d, d)));
             if (disk > 0 && is_visible(pair, i.centre, j.centre)) seen += disk;
         }
         const double weight = i.area / pair.from.area;
         sum.value += weight * seen;
-        if (pair.may_be_occluded() && all > 0)
-            sum.shadow_variance +=
-                weight * weight * all * all * share_variance(seen / all, static_cast<double>(shooters.size()));
+        sum.error += weight * error;
+        sum.parts.push_back({weight * all, all > 0 ? seen / all : 1, static_cast<double>(shooters.size())});
     }
-    return sum;
+    return estimate_of(pair, sum);
 }
 
-ElementSum lambert_elements(const PolygonPair& pair, int count) {
+// F = 1/A_i sum_q F_dAi,j dA_i^q with Lambert's exact F_dAi,j. The error from its values at the corners of each
+// sub-element: the rule of the middle and that of the corners err to opposite sides.
+MethodEstimate area_sampled(const PolygonPair& pair, const FormFactorSettings& settings) {
     ElementSum sum;
-    const auto targets = sub_elements(pair.to, count);
-    for (const SubElement& i : sub_elements(pair.from, count)) {
+    const auto targets = sub_elements(pair.to, settings.samples);
+    const auto lambert = [&](glm::dvec3 point) {
         ++sum.cost;
-        const double whole = std::max(0.0, lambert_sum(i.centre, pair.from.normal, pair.to.corners).value);
-        const double weight = i.area / pair.from.area;
+        return std::clamp(lambert_sum(point, pair.from.normal, pair.to.corners).value, 0.0, 1.0);
+    };
+    for (const SubElement& i : sub_elements(pair.from, settings.samples)) {
+        if (settings.is_cancelled()) break;
+        const double middle = lambert(i.centre), weight = i.area / pair.from.area;
+        double corners = 0;
+        for (const glm::dvec3& corner : i.corners) corners += lambert(corner);
+        sum.error += weight * std::abs(corners / static_cast<double>(i.corners.size()) - middle);
         double share = 1;
-        if (pair.may_be_occluded() && whole > 0) {
+        if (pair.may_be_occluded() && middle > 0) {
             double all = 0, seen = 0;
             for (const SubElement& j : targets) {
                 ++sum.cost;
@@ -68,36 +108,11 @@ ElementSum lambert_elements(const PolygonPair& pair, int count) {
                 if (disk > 0 && is_visible(pair, i.centre, j.centre)) seen += disk;
             }
             share = all > 0 ? seen / all : 1;
-            sum.shadow_variance +=
-                weight * weight * whole * whole * share_variance(share, static_cast<double>(targets.size()));
         }
-        sum.value += weight * whole * share;
+        sum.value += weight * middle * share;
+        sum.parts.push_back({weight * middle, share, static_cast<double>(targets.size())});
     }
-    return sum;
-}
-
-// Against a quarter of the sub-elements: where the error falls at least as the square root of their size does, that
-// difference and the shadows' uncertainty are more than a third of it.
-template <typename Sum>
-MethodEstimate with_coarser(int count, const Sum& sum) {
-    const ElementSum fine = sum(count);
-    if (count < 4) return {fine.value, -1, fine.cost};
-    const ElementSum coarse = sum(count / 4);
-    const double difference = fine.value - coarse.value;
-    return {fine.value, std::sqrt(difference * difference + fine.shadow_variance) + 1e-15, fine.cost + coarse.cost};
-}
-
-} // namespace
-
-// F = 1/A_i sum_q dA_i^q sum_p dA_j^p cos cos / (pi r^2 + dA_j^p) h: Wallace, Elmquist & Haines 1989, eq. 5, averaged
-// over sub-elements of i. Exact for a disk on the axis; off by the shape of the element where r^2 < dA_j / pi.
-MethodEstimate point_to_disk(const PolygonPair& pair, const FormFactorSettings& settings) {
-    return with_coarser(settings.samples, [&](int count) { return disk_sum(pair, count); });
-}
-
-// F = 1/A_i sum_q F_dAi,j dA_i^q with Lambert's exact F_dAi,j.
-MethodEstimate area_sampled(const PolygonPair& pair, const FormFactorSettings& settings) {
-    return with_coarser(settings.samples, [&](int count) { return lambert_elements(pair, count); });
+    return estimate_of(pair, sum);
 }
 
 // The lecture's pseudo code, with 1/n and with each cosine tested, and without its + A_j/n below the fraction: that
@@ -106,6 +121,7 @@ MethodEstimate monte_carlo(const PolygonPair& pair, const FormFactorSettings& se
     RandomStream random(settings.seed, 0);
     double sum = 0, squares = 0, most = 0;
     for (int k = 0; k < settings.samples; ++k) {
+        if (k % 4096 == 0 && settings.is_cancelled()) break;
         const glm::dvec3 x = polygon_point(pair.from, random.next2()), y = polygon_point(pair.to, random.next2());
         double f = pair.to.area * disk_kernel(pair, x, y, 0);
         if (f > 0 && !is_visible(pair, x, y)) f = 0;
@@ -124,8 +140,9 @@ MethodEstimate monte_carlo(const PolygonPair& pair, const FormFactorSettings& se
 MethodEstimate analytic(const PolygonPair& pair, const FormFactorSettings& settings) {
     if (!pair.occluders.world && pair.occluders.polygons.size() <= most_exact_occluders &&
         !pair.occluders.polygons.empty()) {
-        const ExactFormFactor exact = occluded_form_factor(pair.from, pair.to, pair.occluders.polygons, 1e-6,
-                                                           static_cast<std::uint64_t>(settings.samples));
+        const ExactFormFactor exact =
+            occluded_form_factor(pair.from, pair.to, pair.occluders.polygons, 1e-6,
+                                 static_cast<std::uint64_t>(settings.samples), settings.cancel);
         return {exact.value, exact.bound, exact.evaluations};
     }
     const ExactFormFactor exact = exact_form_factor(pair.from, pair.to);
@@ -142,6 +159,7 @@ MethodEstimate analytic(const PolygonPair& pair, const FormFactorSettings& setti
         const glm::dvec4 offset(random.next2(), random.next2());
         double set_all = 0, set_seen = 0;
         for (int k = 0; k < each; ++k) {
+            if (k % 4096 == 0 && settings.is_cancelled()) break;
             constexpr double g = 1.0 / 1.1673039782614187;
             const glm::dvec4 p = offset + (k + 0.5) * glm::dvec4(g, g * g, g * g * g, g * g * g * g);
             const glm::dvec4 u = p - glm::floor(p);

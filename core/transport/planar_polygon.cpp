@@ -81,6 +81,7 @@ std::expected<PlanarPolygon, std::string> make_planar_polygon(std::vector<glm::d
         return std::unexpected(std::string("has no area; a polygon that is not a line or a point is allowed"));
     polygon.normal = vector / polygon.area;
     const std::size_t n = polygon.corners.size();
+    double turned = 0;
     for (std::size_t k = 0; k < n; ++k) {
         const glm::dvec3 p = polygon.corners[k], next = polygon.corners[(k + 1) % n],
                          after = polygon.corners[(k + 2) % n];
@@ -90,7 +91,11 @@ std::expected<PlanarPolygon, std::string> make_planar_polygon(std::vector<glm::d
         if (glm::dot(glm::cross(next - p, after - next), polygon.normal) <
             -1e-6 * glm::length(next - p) * glm::length(after - next))
             return std::unexpected(std::string("is not convex; cut it into convex polygons"));
+        const glm::dvec3 turn = glm::cross(next - p, after - next);
+        turned += std::atan2(glm::dot(turn, polygon.normal), glm::dot(next - p, after - next));
     }
+    if (turned > 6.3 * 1.01)
+        return std::unexpected(std::string("goes around more than once; a convex polygon is allowed"));
     return polygon;
 }
 
@@ -182,7 +187,7 @@ std::vector<SubElement> sub_elements(const PlanarPolygon& polygon, int count) {
     const auto& p = polygon.corners;
     std::vector<SubElement> elements;
     if (count <= 1) {
-        elements.push_back({centre(polygon), polygon.area, 2 * radius(polygon)});
+        elements.push_back({centre(polygon), polygon.area, 2 * radius(polygon), polygon.corners});
         return elements;
     }
     if (p.size() == 4) { // cells of the bilinear map, as square as they come
@@ -202,7 +207,7 @@ std::vector<SubElement> sub_elements(const PlanarPolygon& polygon, int count) {
                 if (!(area > 0)) continue;
                 const double size = std::max(glm::length(cell.corners[2] - cell.corners[0]),
                                              glm::length(cell.corners[3] - cell.corners[1]));
-                elements.push_back({centre(cell), area, size});
+                elements.push_back({centre(cell), area, size, cell.corners});
             }
         return elements;
     }
@@ -231,8 +236,10 @@ std::vector<SubElement> sub_elements(const PlanarPolygon& polygon, int count) {
     }
     for (const Triangle& t : triangles)
         if (const double area = area_of(t); area > 0)
-            elements.push_back({(t.a + t.b + t.c) / 3.0, area,
-                                std::sqrt(std::max({squared(t.b - t.a), squared(t.c - t.b), squared(t.a - t.c)}))});
+            elements.push_back({(t.a + t.b + t.c) / 3.0,
+                                area,
+                                std::sqrt(std::max({squared(t.b - t.a), squared(t.c - t.b), squared(t.a - t.c)})),
+                                {t.a, t.b, t.c}});
     return elements;
 }
 

@@ -38,7 +38,8 @@ double distance(const PlanarPolygon& a, const PlanarPolygon& b);
 struct SubElement {
     glm::dvec3 centre;
     double area;
-    double size; // longest edge, m
+    double size; // longest way across, m
+    std::vector<glm::dvec3> corners;
 };
 std::vector<SubElement> sub_elements(const PlanarPolygon& polygon, int count);
 

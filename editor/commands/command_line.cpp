@@ -11,6 +11,7 @@
 #include "core/display/image_file.h"
 #include "core/scene/solver_words.h"
 #include "editor/commands/display_options.h"
+#include "editor/commands/form_factor_options.h"
 #include "editor/commands/number_text.h"
 #include "editor/commands/option_text.h"
 
@@ -244,6 +245,7 @@ constexpr const char* program_footer = R"(Examples:
   lueur room.toml                              edit another scene
   lueur render room.toml -o room.png           a picture, without a window
   lueur measure room.toml --points desk.csv -o desk_lux.csv
+  lueur form-factors pairs.json -o factors.json
   lueur plan room.toml                         how many wavelengths it needs
 Each command has its own --help.
 
@@ -320,7 +322,12 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     add_chart_options(*chart_app, chart);
     chart_app->footer(chart_footer);
 
-    const auto commands = {render_app, measure_app, plan_app, chart_app};
+    FormFactorsCommand form_factors;
+    CLI::App* form_factors_app =
+        app.add_subcommand("form-factors", "Form factors between polygons by every method, and where each fails");
+    add_form_factor_command(*form_factors_app, form_factors);
+
+    const auto commands = {render_app, measure_app, plan_app, chart_app, form_factors_app};
     const std::string* command = nullptr;
     try {
         app.parse(argc, argv);
@@ -335,6 +342,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
         if (render_app->parsed()) check_render(*render_app, render);
         if (measure_app->parsed()) check_measure(*measure_app, measure, words);
         if (chart_app->parsed()) check_chart(*chart_app, chart);
+        if (form_factors_app->parsed()) check_form_factor_command(*form_factors_app, form_factors);
     } catch (const CLI::ParseError& stop) {
         std::ostringstream out, errors;
         if (app.exit(stop, out, errors) == 0) return ExitNow{0, out.str()};
@@ -347,6 +355,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     if (measure_app->parsed()) return measure;
     if (plan_app->parsed()) return plan;
     if (chart_app->parsed()) return chart;
+    if (form_factors_app->parsed()) return form_factors;
     return editor;
 }
 

@@ -3,6 +3,7 @@
 //     lueur [SCENE]                                   the editor
 //     lueur render SCENE -o IMAGE                     solve and save a picture
 //     lueur measure SCENE --points IN.csv -o OUT.csv  irradiance and illuminance at points
+//     lueur form-factors CASES.json -o OUT.json       every method on pairs of polygons with occluders
 //     lueur plan SCENE                                how many wavelengths the scene needs, and why
 //     lueur chart SCENE -o OUT.svg --csv OUT.csv      error against time of every method
 //     lueur chart --of spectra -o OUT.svg             colour difference against the number of samples and solve time
@@ -20,6 +21,7 @@
 #include <vector>
 
 #include "core/scene/scene.h"
+#include "core/transport/form_factor.h"
 #include "core/view/measure.h"
 #include "core/view/picture.h"
 
@@ -110,12 +112,21 @@ struct ChartCommand {
     double run_time = 0; // s
 };
 
+struct FormFactorsCommand {
+    BatchParams batch;                   // nothing of it is asked for
+    std::filesystem::path cases, output; // output: a folder with failures
+    bool failures = false;
+    std::vector<FormFactorMethod> methods; // empty: all but automatic
+    FormFactorSettings settings;
+};
+
 struct ExitNow { // --help, --version, or a mistake
     int code = 0;
     std::string text; // for stdout with code 0, else for stderr; ends with a new line
 };
 
-using CommandLine = std::variant<EditorCommand, RenderCommand, MeasureCommand, PlanCommand, ChartCommand, ExitNow>;
+using CommandLine =
+    std::variant<EditorCommand, RenderCommand, MeasureCommand, PlanCommand, ChartCommand, FormFactorsCommand, ExitNow>;
 
 CommandLine parse_command_line(int argc, const char* const* argv);
 
@@ -123,5 +134,6 @@ int run(const RenderCommand& command);
 int run(const MeasureCommand& command);
 int run(const PlanCommand& command);
 int run(const ChartCommand& command);
+int run(const FormFactorsCommand& command);
 
 } // namespace lueur

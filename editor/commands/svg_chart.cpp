@@ -52,6 +52,16 @@ std::string text_at(double x, double y, std::string_view text, const char* ancho
 
 // 1, 2, 5, 10, 20, 50 ... within the axis; 1, 10, 100 ... only where those would be crowded.
 std::vector<double> ticks(const ChartAxis& axis) {
+    if (axis.linear) { // five or so round numbers
+        const double step = std::pow(10.0, std::floor(std::log10((axis.high - axis.low) / 3)));
+        const double wide = (axis.high - axis.low) / step > 12  ? 5 * step
+                            : (axis.high - axis.low) / step > 6 ? 2 * step
+                                                                : step;
+        std::vector<double> values;
+        for (double n = std::ceil(axis.low / wide - 1e-9); n * wide <= axis.high + 1e-9 * wide; ++n)
+            values.push_back(n * wide);
+        return values;
+    }
     const bool crowded = std::log10(axis.high / axis.low) > 3.2;
     std::vector<double> values;
     for (int decade = static_cast<int>(std::floor(std::log10(axis.low)));
@@ -158,6 +168,7 @@ public:
 
 private:
     static double share(const ChartAxis& axis, double value) {
+        if (axis.linear) return std::clamp((value - axis.low) / (axis.high - axis.low), 0.0, 1.0);
         const double s = std::log(std::max(value, axis.low) / axis.low) / std::log(axis.high / axis.low);
         return std::clamp(s, 0.0, 1.0);
     }

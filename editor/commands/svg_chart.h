@@ -35,6 +35,7 @@ struct ChartFailure { // a cross at the top edge
 struct ChartAxis {
     std::string label;
     double low = 1, high = 10; // above 0, low < high
+    bool linear = false;       // then low may be 0 or below
 };
 
 struct ChartPanel {
