@@ -42,6 +42,8 @@ struct Probe {
     double irradiance_watts = 0; // W m^-2, 380..780 nm
     Xyz radiance{0};             // towards the eye, Y in cd m^-2; textures included
     Rgb rgb{0};                  // linear sRGB of the radiance, cd m^-2
+    float error = 0;             // lx, one standard deviation of the illuminance
+    double interval_factor = 1.96; // times that: 95 %
     float unshot = 0;
     float colour_difference = 0; // CIEDE2000 from the trichromatic approach, where that is solved beside
 };

@@ -209,6 +209,9 @@ void EditorWindow::do_command(Command command) {
     case Command::view_illuminance:
         state_.view = ViewMode::illuminance;
         break;
+    case Command::view_error:
+        state_.view = ViewMode::error;
+        break;
     case Command::view_side_by_side:
     case Command::view_difference:
         state_.view = command == Command::view_difference ? ViewMode::difference : ViewMode::side_by_side;

@@ -7,7 +7,7 @@
 namespace lueur {
 namespace {
 
-constexpr std::array<CommandInfo, 26> table{{
+constexpr std::array<CommandInfo, 27> table{{
     {Command::open, "Open...", "Ctrl+O"},
     {Command::save, "Save", "Ctrl+S"},
     {Command::save_as, "Save as...", "Ctrl+Shift+S"},
@@ -23,6 +23,7 @@ constexpr std::array<CommandInfo, 26> table{{
     {Command::view_illuminance, "Illuminance, isolux lines", "5"},
     {Command::view_side_by_side, "Spectral beside RGB", "6"},
     {Command::view_difference, "Difference from RGB", "7"},
+    {Command::view_error, "Estimated error", "8"},
     {Command::frame_selection, "Frame the selection, or all", "F"},
     {Command::home, "Camera of the scene", "Home"},
     {Command::toggle_panels, "Hide or show the panels", "Tab"},
@@ -94,6 +95,9 @@ std::optional<Command> command_for_key(int key, int modifiers) {
     case GLFW_KEY_7:
     case GLFW_KEY_KP_7:
         return Command::view_difference;
+    case GLFW_KEY_8:
+    case GLFW_KEY_KP_8:
+        return Command::view_error;
     case GLFW_KEY_F:
         return Command::frame_selection;
     case GLFW_KEY_HOME:

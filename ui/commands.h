@@ -23,6 +23,7 @@ enum class Command {
     view_illuminance,
     view_side_by_side,
     view_difference,
+    view_error,
     frame_selection,
     home,
     toggle_panels,

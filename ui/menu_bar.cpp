@@ -75,6 +75,7 @@ double menu_bar(const Document& document, const Preferences& preferences, UiStat
         item(state, Command::view_illuminance, state.view == ViewMode::illuminance);
         item(state, Command::view_side_by_side, state.view == ViewMode::side_by_side);
         item(state, Command::view_difference, state.view == ViewMode::difference);
+        item(state, Command::view_error, state.view == ViewMode::error);
         ImGui::Separator();
         item(state, Command::frame_selection);
         item(state, Command::home);

@@ -29,6 +29,7 @@ constexpr bool shows_colour(ViewMode view) {
 }
 FalseColourSettings unshot_scale(float top); // five decades below `top`, lm m^-2
 FalseColourSettings difference_scale();      // CIEDE2000 of the trichromatic approach
+FalseColourSettings error_scale();           // per cent of the illuminance, one standard deviation
 
 struct RenderParams {
     int width = 0, height = 0; // pixels
@@ -103,7 +104,7 @@ private:
     void use_shades(const ShadeBuffers& shades);
     void draw_batches(const RenderParams& params, unsigned variant, const glm::mat4& clip, double max_display);
 
-    GlBuffer positions_, uvs_, objects_, unshot_, illuminance_, difference_, elements_, coarse_;
+    GlBuffer positions_, uvs_, objects_, unshot_, illuminance_, difference_, error_, elements_, coarse_;
     ShadeBuffers shades_, trichromatic_; // the second is used when the two are compared
     GlTexture coarse_texture_;
     std::map<const TextureImage*, GlTexture> textures_;

@@ -90,6 +90,14 @@ FalseColourSettings difference_scale() {
     return scale;
 }
 
+FalseColourSettings error_scale() {
+    FalseColourSettings scale;
+    scale.low = 0.1;
+    scale.high = 100;
+    scale.levels = {1, 2, 5, 10};
+    return scale;
+}
+
 unsigned Renderer::display_variant(const RenderParams& params) const {
     const DisplaySettings& display = params.display;
     const bool colour = params.view != ViewMode::luminance && shows_colour(params.view);
@@ -137,6 +145,10 @@ void Renderer::draw_display(const RenderParams& params, double divisor) {
     case ViewMode::difference:
         uniforms.set("quantity", 1);
         set_scale(uniforms, difference_scale());
+        break;
+    case ViewMode::error:
+        uniforms.set("quantity", 1);
+        set_scale(uniforms, error_scale());
         break;
     case ViewMode::illuminance:
         uniforms.set("quantity", 1);

@@ -60,6 +60,7 @@ void take_view(ScreenshotParams& params, ViewMode view) {
     case ViewMode::unshot:
     case ViewMode::side_by_side:
     case ViewMode::difference:
+    case ViewMode::error:
         params.quantity = PictureQuantity::colour;
         params.false_colour = false;
         return;

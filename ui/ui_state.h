@@ -23,7 +23,7 @@
 
 namespace lueur {
 
-enum class ViewMode { shaded, elements, unshot, luminance, illuminance, side_by_side, difference };
+enum class ViewMode { shaded, elements, unshot, luminance, illuminance, side_by_side, difference, error };
 
 enum class ChromaticityScale { xy, uv }; // CIE 1931 x y, CIE 1976 u' v'
 

@@ -7,8 +7,10 @@
 #include <tbb/parallel_for.h>
 
 #include "core/scene/spectral_content.h"
+#include "core/solve/error_estimate.h"
 #include "core/solve/restriction.h"
 #include "core/solve/solution_state.h"
+#include "core/solve/traced_field.h"
 #include "core/spectrum/colour_difference.h"
 
 namespace lueur {
@@ -94,7 +96,14 @@ ChannelField irradiance_channels(const Solution::State& s, std::vector<float>& u
     const int channels = s.channels();
     ChannelField h(count, channels);
     unshot.assign(count, 0);
-    if (s.solving) {
+    if (s.is_traced()) {
+        tbb::parallel_for(Range(0, count, 256), [&](const Range& range) {
+            for (std::uint32_t v = range.begin(); v < range.end(); ++v) s.traced->irradiance(v, h[v]);
+        });
+        fill_buried(mesh.elements, s.traced->buried, h);
+        return h;
+    }
+    if (s.solving && s.solver() != SolverKind::reference) {
         const ChannelField& indirect = s.indirect();
         const std::vector<float> ambient = s.ambient();
         const std::vector<float> left = s.unshot_at_vertices();
@@ -161,15 +170,29 @@ std::shared_ptr<const Field> compose_field(const Solution::State& s) {
     }
     if (irradiance.values.size() <= largest_channel_field) field->irradiance = std::move(irradiance);
     field->wavelengths = s.wavelengths;
+    estimate_error(s, *field);
     return field;
 }
 
 std::vector<double> irradiance_at(const Solution::State& s, std::uint32_t element, float b1, float b2) {
     const int channels = s.channels();
     std::vector<double> h(channels, 0);
+    if (s.is_traced()) {
+        const Located at_point = locate(s.mesh, element, b1, b2);
+        std::vector<float> row(static_cast<std::size_t>(channels));
+        float sum = 0;
+        for (int k = 0; k < 3; ++k)
+            if (!s.traced->buried[at_point.vertices[k]]) sum += at_point.weights[k];
+        for (int k = 0; k < 3; ++k) {
+            if (s.traced->buried[at_point.vertices[k]] || sum <= 0) continue;
+            s.traced->irradiance(at_point.vertices[k], row.data());
+            for (std::size_t c = 0; c < h.size(); ++c) h[c] += double(at_point.weights[k] / sum) * double(row[c]);
+        }
+        return h;
+    }
     const glm::uvec3 corners = s.mesh.nodes[element].vertices;
     const float coarse_weight[3] = {1 - b1 - b2, b1, b2};
-    if (s.solving) {
+    if (s.solving && s.solver() != SolverKind::reference) {
         float sum = 0;
         for (int k = 0; k < 3; ++k)
             if (!s.buried[corners[k]]) sum += coarse_weight[k];

@@ -56,6 +56,7 @@ void step_solve(State& s, const std::atomic<bool>& cancel, bool one_shot) {
 } // namespace
 
 void start_solver(State& s, bool same_sources) {
+    if (s.solver() != SolverKind::gathering) s.indirect_deviation.clear(); // it was another solver's
     switch (s.solver()) {
     case SolverKind::automatic:
     case SolverKind::gathering:
@@ -105,6 +106,7 @@ void Solution::update(std::shared_ptr<const Scene> scene, SolveFrom stale) {
     const SolveSettings before = s.scene->solve;
     s.scene = std::move(scene);
     if (stale == SolveFrom::nothing) return;
+    s.stock.reset();
     s.status.seconds = 0;
     s.status.last_edit_seconds = 0;
     s.status.settled = false;
@@ -144,6 +146,7 @@ void Solution::update(std::shared_ptr<const Scene> scene, SolveFrom stale) {
 bool Solution::step(const std::atomic<bool>& cancel, bool one_shot) {
     State& s = *state_;
     if (s.phase == SolvePhase::settled || s.phase == SolvePhase::failed) return false;
+    s.stock.reset();
     const auto start = std::chrono::steady_clock::now();
     const std::uint64_t direct_before = s.direct ? s.direct->rays() : 0;
     switch (s.phase) {
@@ -179,7 +182,14 @@ bool Solution::step(const std::atomic<bool>& cancel, bool one_shot) {
         s.edit_open = false;
         s.status.last_edit_seconds = s.status.seconds;
     }
+    if (s.phase == SolvePhase::settled) take_stock();
     return s.phase != SolvePhase::settled && s.phase != SolvePhase::failed;
+}
+
+void Solution::take_stock() {
+    if (!state_->published_mesh) return;
+    state_->stock = compose_field(*state_);
+    state_->status.estimated_error = state_->stock->scene_error;
 }
 
 const SolveStatus& Solution::status() const {
@@ -195,6 +205,7 @@ std::shared_ptr<const World> Solution::world() const {
     return state_->world;
 }
 std::shared_ptr<const Field> Solution::field() const {
+    if (state_->stock) return state_->stock;
     return state_->published_mesh ? compose_field(*state_) : nullptr;
 }
 

@@ -33,6 +33,10 @@ public:
     // nothing is left to do. `one_shot`: a step of the shooting solver is a single shot, to be looked at.
     bool step(const std::atomic<bool>& cancel, bool one_shot = false);
 
+    // Brings status().estimated_error up to date with field() where the solver was stopped on its way; a settled one
+    // is.
+    void take_stock();
+
     const SolveStatus& status() const;
     const std::shared_ptr<const Scene>& scene() const;
     std::shared_ptr<const Mesh> mesh() const;   // null before it is made

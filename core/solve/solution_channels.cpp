@@ -40,6 +40,7 @@ void choose_wavelengths(State& s) {
         s.status.wavelengths = fmt::format("{} channels", s.wavelengths->size());
         break;
     }
+    s.wavelength_error = wavelength_error(*s.wavelengths, content);
     s.content = std::move(content);
     s.planned_error = solve.colour_error;
 }

@@ -1,8 +1,16 @@
 // What a solution shows of the solver at work.
 #include "core/scene/solver_words.h"
 #include "core/solve/solution_steps.h"
+#include "core/solve/traced_field.h"
 
 namespace lueur {
+
+Solution::State::State() = default;
+Solution::State::~State() = default;
+
+bool Solution::State::is_traced() const {
+    return solver() == SolverKind::reference && solving && traced && traced->passes > 0;
+}
 
 std::vector<std::uint8_t> Solution::State::all_buried() const {
     std::vector<std::uint8_t> all = direct->buried();

@@ -5,14 +5,18 @@
 #include <optional>
 #include <vector>
 
+#include "core/solve/error_probes.h"
 #include "core/solve/gather_system.h"
 #include "core/solve/patch_solve.h"
 #include "core/solve/shooting.h"
 #include "core/solve/solution.h"
+#include "core/solve/wavelength_error.h"
 #include "core/transport/direct_transport.h"
 #include "core/transport/gather_rows.h"
 
 namespace lueur {
+
+struct TracedField; // traced_field.h
 
 // Mesh to refine make what all solvers stand on; transport is a solver's own (rays, a matrix, links), solve its sweeps
 // or shots. A solver may begin before refine, which gives it a first picture early.
@@ -39,12 +43,18 @@ struct Solution::State {
     bool refined = false;
     double element_size = 0;        // m, longest coarse edge in use
     std::vector<float> coarse_area; // m^2 of each coarse vertex
+    ErrorProbes probes;             // where the solution is asked whether it is right
+
+    // What a solver knows of the error of its own indirect light, lx at the coarse vertices, one standard deviation;
+    // empty: nothing. Error estimates start from it (error_estimate.h).
+    std::vector<float> indirect_deviation;
 
     // Sources and paints, in channels: those of `wavelengths`, then those of `trichromatic`.
     std::shared_ptr<const Wavelengths> wavelengths;
     std::optional<Wavelengths> trichromatic;             // when the two are compared
     SpectralContent content;                             // that the wavelengths were chosen for
     double planned_error = 0;                            // and the colour_error
+    WavelengthError wavelength_error;                    // what they make of illuminance
     std::vector<std::vector<double>> material_rho;       // per material
     std::vector<std::vector<double>> luminaire_exitance; // per luminaire, W m^-2 nm^-1
     std::vector<std::optional<LuminaireIndex>> object_luminaire;
@@ -53,9 +63,11 @@ struct Solution::State {
     ChannelField gathered_direct;     // irradiance at receivers after one reflection of direct light
     ChannelField indirect_irradiance; // gathered_direct + W U at the coarse vertices, refreshed after sweeps
     Shooting shooting;
-    PatchSolve patch_solve; // Jacobi, Gauss-Seidel, overshooting
-    bool solving = false;   // system or shooting hold this scene's sources
-    bool edit_open = true;  // last_edit_seconds is still to be set
+    PatchSolve patch_solve;              // Jacobi, Gauss-Seidel, overshooting
+    std::unique_ptr<TracedField> traced; // of the reference solver
+    bool solving = false;                // system or shooting hold this scene's sources
+    std::shared_ptr<const Field> stock;  // the field of a solution that does not move any more
+    bool edit_open = true;               // last_edit_seconds is still to be set
 
     int channels() const { return wavelengths->size() + (trichromatic ? trichromatic->size() : 0); }
     // Coarse vertices by their own rays, fine ones where they are dark and inside a solid.
@@ -67,6 +79,10 @@ struct Solution::State {
     std::vector<float> ambient() const;            // irradiance to be added for display; only shooting has some
     std::vector<float> unshot_at_vertices() const; // luminous exitance at coarse vertices that is still to be sent on
     SolverKind solver() const;                     // that is at work, never automatic
+    bool is_traced() const;                        // fine vertices have their whole irradiance from paths
+
+    State();
+    ~State();
 };
 
 std::shared_ptr<const Field> compose_field(const Solution::State& state);

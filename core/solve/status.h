@@ -28,6 +28,7 @@ struct SolveStatus {
     double seconds = 0;           // solve time since the last stale edit
     double last_edit_seconds = 0; // solve time from the last edit to the first picture that settled it; 0: not yet
     std::uint64_t rays = 0;
+    std::uint64_t paths = 0; // of the reference solver
     std::uint64_t row_entries = 0;
     std::uint32_t rays_per_receiver = 0;
     std::uint32_t sweeps = 0, shots = 0;

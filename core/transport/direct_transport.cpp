@@ -19,13 +19,14 @@ DirectTransport::DirectTransport(const World& world, Mesh& mesh, std::vector<Emi
     for (const Emitter& e : emitters_) weight_.push_back(e.area > 0 ? 1 / e.area : 0);
     origins_ = ray_origins(mesh_, world_.epsilon());
     factors_.assign(mesh_.vertices.size() * emitters_.size(), 0);
+    deviations_ = factors_;
     buried_.assign(mesh_.vertices.size(), 0);
 }
 
-void DirectTransport::light(glm::vec3 origin, glm::vec3 normal, float* factors) const {
+void DirectTransport::light(glm::vec3 origin, glm::vec3 normal, float* factors, float* deviations) const {
     std::uint64_t rays = 0;
     for (std::size_t l = 0; l < emitters_.size(); ++l)
-        factors[l] = direct_form_factor(world_, emitters_[l], origin, normal, rays);
+        factors[l] = direct_form_factor(world_, emitters_[l], origin, normal, rays, &deviations[l]);
     rays_.fetch_add(rays, std::memory_order_relaxed);
 }
 
@@ -58,8 +59,9 @@ bool DirectTransport::light_vertices(const std::atomic<bool>& cancel) {
     const std::uint32_t count = static_cast<std::uint32_t>(mesh_.vertices.size());
     const bool done = run_slice(vertex_cursor_, count, 32, cancel, [&](std::uint32_t first, std::uint32_t last) {
         for (std::uint32_t v = first; v < last; ++v) {
-            float* factors = factors_.data() + std::size_t(v) * emitters_.size();
-            light(origins_[v], mesh_.vertices[v].normal, factors);
+            const std::size_t row = std::size_t(v) * emitters_.size();
+            float* factors = factors_.data() + row;
+            light(origins_[v], mesh_.vertices[v].normal, factors, deviations_.data() + row);
             if (equal_flux_light(factors) == 0) find_buried(world_, mesh_, origins_, v, v + 1, buried_);
         }
     });
@@ -67,6 +69,7 @@ bool DirectTransport::light_vertices(const std::atomic<bool>& cancel) {
         double sum = 0;
         for (std::uint32_t v = 0; v < count; ++v) sum += equal_flux_light(at_vertex(v));
         floor_ = static_cast<float>(0.1 * sum / count); // darker than this, a relative error is not seen
+        spread_deviations();
     }
     return done;
 }
@@ -97,6 +100,7 @@ void DirectTransport::collect_edges() {
         }
     }
     edge_factors_.assign(edges_.size() * emitters_.size(), 0);
+    edge_deviations_ = edge_factors_;
 }
 
 void DirectTransport::split_bent() {
@@ -137,6 +141,7 @@ void DirectTransport::split_bent() {
     // New vertices at middles that were looked at are lit already; the others (made for conformity) are lit now.
     const std::uint32_t after = static_cast<std::uint32_t>(mesh_.vertices.size());
     factors_.resize(std::size_t(after) * emitters_.size(), 0);
+    deviations_.resize(factors_.size(), 0);
     buried_.resize(after, 0);
     list_leaves(mesh_);
     origins_ = ray_origins(mesh_, world_.epsilon());
@@ -145,19 +150,48 @@ void DirectTransport::split_bent() {
                           for (std::uint32_t v = range.begin(); v < range.end(); ++v) {
                               const auto& parents = mesh_.vertices[v].parents;
                               const auto slot = edge_slot_.find(Bisection::edge_key(parents[0], parents[1]));
-                              float* factors = factors_.data() + std::size_t(v) * emitters_.size();
-                              if (slot != edge_slot_.end())
-                                  std::copy_n(edge_factors_.data() + std::size_t(slot->second) * emitters_.size(),
-                                              emitters_.size(), factors);
-                              else
-                                  light(origins_[v], mesh_.vertices[v].normal, factors);
+                              const std::size_t row = std::size_t(v) * emitters_.size();
+                              float *factors = factors_.data() + row, *deviations = deviations_.data() + row;
+                              if (slot != edge_slot_.end()) {
+                                  const std::size_t edge = std::size_t(slot->second) * emitters_.size();
+                                  std::copy_n(edge_factors_.data() + edge, emitters_.size(), factors);
+                                  std::copy_n(edge_deviations_.data() + edge, emitters_.size(), deviations);
+                              } else
+                                  light(origins_[v], mesh_.vertices[v].normal, factors, deviations);
                               if (equal_flux_light(factors) == 0)
                                   find_buried(world_, mesh_, origins_, v, v + 1, buried_);
                           }
                       });
     vertex_cursor_ = after;
     refined_ = after == before || after >= params_.most_vertices;
-    if (refined_) misfit_ = misfit_count_ > 0 ? std::sqrt(misfit_sum_ / double(misfit_count_)) : 0;
+    if (refined_) {
+        misfit_ = misfit_count_ > 0 ? std::sqrt(misfit_sum_ / double(misfit_count_)) : 0;
+        spread_deviations();
+    }
+}
+
+// Beside a penumbra six probes that agree may still be wrong by what lies between them: a seventh of the luminaire.
+void DirectTransport::spread_deviations() {
+    constexpr float share_between_probes = 0.07f;
+    const std::size_t emitters = emitters_.size();
+    std::vector<float> beside(deviations_.size(), 0);
+    for (const glm::uvec3& e : mesh_.elements)
+        for (std::size_t l = 0; l < emitters; ++l) {
+            float brightest = 0;
+            bool mixed = false, lit = false, dark = false;
+            for (int k = 0; k < 3; ++k) {
+                const std::size_t at = e[k] * emitters + l;
+                brightest = std::max(brightest, factors_[at]);
+                mixed = mixed || deviations_[at] > 0.01f * factors_[at];
+                lit = lit || factors_[at] > 0;
+                dark = dark || factors_[at] == 0;
+            }
+            if (mixed || (lit && dark))
+                for (int k = 0; k < 3; ++k)
+                    beside[e[k] * emitters + l] =
+                        std::max(beside[e[k] * emitters + l], share_between_probes * brightest / 3);
+        }
+    for (std::size_t i = 0; i < beside.size(); ++i) deviations_[i] = std::max(deviations_[i], beside[i]);
 }
 
 bool DirectTransport::refine(const std::atomic<bool>& cancel) {
@@ -177,7 +211,8 @@ bool DirectTransport::refine(const std::atomic<bool>& cancel) {
                                         const glm::vec3 normal =
                                             glm::dot(sum, sum) > 1e-12f ? glm::normalize(sum) : a.normal;
                                         light(ray_origin(middle, normal, edge.inward / float(edge.elements), epsilon),
-                                              normal, edge_factors_.data() + std::size_t(e) * emitters_.size());
+                                              normal, edge_factors_.data() + std::size_t(e) * emitters_.size(),
+                                              edge_deviations_.data() + std::size_t(e) * emitters_.size());
                                     }
                                 });
     if (!done) return false;

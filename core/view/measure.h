@@ -18,7 +18,7 @@ struct Irradiance {
     std::vector<double> channels; // W m^-2 nm^-1, or the scene's emission unit in rgb
     double illuminance_lx = 0;
     double irradiance_w_m2 = 0;
-    double standard_error_percent = 0; // of the illuminance, from independent ray sets
+    double standard_error_percent = 0; // of the illuminance: from independent ray sets; of the field its estimate
 };
 
 enum class MeasureAt {

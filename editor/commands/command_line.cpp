@@ -147,10 +147,13 @@ void add_measure_options(CLI::App& app, MeasureCommand& measure, MeasureWords& w
              "The same CSV with the columns illuminance_lx, irradiance_w_m2, standard_error_percent added",
              measure.output, true);
     add_choice(app, "--at",
-               "Look from each point anew (the default) or read the field as the window shows it, interpolated",
-               Choices<MeasureAt, 2>{{{{"gather", MeasureAt::gather}, {"field", MeasureAt::field}}}}, words.at);
-    add_integer(app, "--rays", "Hemisphere rays (paths with --solver reference) a point, 1 to 100000000 (1024)", 1,
-                100000000, words.rays);
+               "Look from each point anew (the default), read the field as the window shows it, interpolated, or trace "
+               "unbiased paths",
+               Choices<MeasureAt, 3>{
+                   {{{"gather", MeasureAt::gather}, {"field", MeasureAt::field}, {"reference", MeasureAt::reference}}}},
+               words.at);
+    add_integer(app, "--rays", "Hemisphere rays (paths of the reference) a point, 1 to 100000000 (1024)", 1, 100000000,
+                words.rays);
     add(app, "--solver", "NAME",
         fmt::format("How the light is solved, auto is gathering and reference traces unbiased paths from each point, "
                     "without radiosity; else as the scene says: {}",
@@ -205,14 +208,15 @@ void check_render(const CLI::App& app, const RenderCommand& render) {
 }
 
 void check_measure(const CLI::App& app, MeasureCommand& measure, const MeasureWords& words) {
-    if (words.reference) {
-        if (words.at)
+    if (words.reference || words.at == MeasureAt::reference) {
+        if (words.at && words.at != MeasureAt::reference)
             throw CLI::ValidationError("--at",
                                        "does nothing with --solver reference, which traces paths from each point");
         for (const char* name : {"--error", "--time"})
             if (app.count(name) > 0)
                 throw CLI::ValidationError(name,
-                                           "does nothing with --solver reference; --rays says how many paths to trace");
+                                           fmt::format("does nothing with {}; --rays says how many paths to trace",
+                                                       words.reference ? "--solver reference" : "--at reference"));
         measure.at = MeasureAt::reference;
     } else if (words.at) {
         measure.at = *words.at;

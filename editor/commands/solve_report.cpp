@@ -11,9 +11,8 @@
 namespace lueur {
 
 std::string report_json(const std::string& command, const BatchParams& params, const Solution& solution,
-                        const BatchSolveResult& solved,
+                        const SolveStatus& status, const BatchSolveResult& solved,
                         const std::vector<std::pair<std::string, double>>& stage_seconds) {
-    const SolveStatus& status = solution.status();
     const SolveSettings& settings = solution.scene()->solve;
     nlohmann::ordered_json stages = nlohmann::ordered_json::object();
     for (auto [stage, seconds] : stage_seconds) {
@@ -43,6 +42,7 @@ std::string report_json(const std::string& command, const BatchParams& params, c
     report["stage_seconds"] = stages;
     report["solve_seconds"] = solved.seconds;
     report["rays"] = status.rays;
+    if (status.paths > 0) report["paths"] = status.paths;
     report["rays_per_receiver"] = status.rays_per_receiver;
     report["rows"] = status.receivers;
     report["row_entries"] = status.row_entries;
