@@ -209,9 +209,7 @@ private:
 
     void curve(const ChartMethod& method, bool faint) const {
         const bool current = method == current_;
-        const ImU32 colour = packed(colour_of(method.solver), faint                        ? 0.25f
-                                                              : gives_field(method.solver) ? 0.95f
-                                                                                           : 0.6f);
+        const ImU32 colour = packed(colour_of(method.solver), faint ? 0.25f : 0.95f);
         std::vector<ImVec2> line;
         for (const glm::dvec2& point : curve_of(chart_, method)) line.push_back({across(point.x), up(point.y)});
         draw_->AddPolyline(line.data(), static_cast<int>(line.size()), colour, ImDrawFlags_None,

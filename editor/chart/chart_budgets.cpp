@@ -16,7 +16,7 @@ using Samples = std::array<int, budgets.size()>;
 // What one number means to each method: row_settings (core/transport/form_factor.h), whose defaults stand at level 3.
 constexpr Samples exact_visibility{4, 8, 16, 16, 16, 32, 32}, sub_elements{1, 2, 4, 4, 4, 8, 16},
     pairs{8, 16, 32, 64, 128, 256, 512}, hemicube_edge{16, 32, 48, 64, 96, 128, 192},
-    hemisphere_rays{256, 1024, 2048, 4096, 8192, 16384, 32768}, paths{16, 64, 256, 1024, 4096, 16384, 65536};
+    hemisphere_rays{256, 1024, 2048, 4096, 8192, 16384, 32768};
 
 int samples_of(FormFactorMethod method, std::size_t level) {
     switch (method) {
@@ -45,7 +45,7 @@ std::span<const ChartBudget> chart_budgets() {
 
 ChartBudget budget_of(const ChartMethod& method, std::size_t level) {
     ChartBudget budget = budgets.at(level);
-    budget.samples = gives_field(method.solver) ? samples_of(method.form_factors, level) : paths.at(level);
+    budget.samples = samples_of(method.form_factors, level);
     return budget;
 }
 

@@ -116,10 +116,8 @@ Chart picture_of(const MethodChart& chart) {
     double first = 1e30, last = 0, least = 1e30, most = 0, resolution = 0;
     ChartPanel panel;
     for (std::size_t m = 0; m < methods.size(); ++m) {
-        std::string name = to_string(methods[m]);
-        if (!gives_field(methods[m].solver)) name += " (points only)";
-        picture.series.push_back({name, colour_of(methods[m].solver), false, mark_of(methods[m])});
-        ChartCurve curve{m, {}, !gives_field(methods[m].solver)};
+        picture.series.push_back({to_string(methods[m]), colour_of(methods[m].solver), false, mark_of(methods[m])});
+        ChartCurve curve{m, {}, false};
         for (const glm::dvec2& point : curve_of(chart, methods[m])) curve.points.emplace_back(point.x, 100 * point.y);
         panel.curves.push_back(std::move(curve));
     }

@@ -22,10 +22,6 @@ bool has_oracle(SolverKind solver) {
     return solver == SolverKind::hierarchical;
 }
 
-bool gives_field(SolverKind solver) {
-    return solver != SolverKind::reference;
-}
-
 std::vector<ChartMethod> all_chart_methods() {
     std::vector<ChartMethod> methods;
     for (const SolverKind solver : all_solvers) {
@@ -98,7 +94,6 @@ std::vector<FrontPoint> front_of(const MethodChart& chart) {
     std::vector<glm::dvec2> places;
     std::vector<ChartMethod> whose;
     for (const ChartMethod& method : methods_of(chart)) {
-        if (!gives_field(method.solver)) continue;
         for (const glm::dvec2& place : curve_of(chart, method)) {
             places.push_back(place);
             whose.push_back(method);

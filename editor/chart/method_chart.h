@@ -25,7 +25,6 @@ struct ChartMethod {
 };
 std::string to_string(const ChartMethod& method); // "jacobi, hemicube"
 bool has_oracle(SolverKind solver);
-bool gives_field(SolverKind solver); // false: figures at points only, no picture
 
 // Every method there is, in the order of the enums.
 std::vector<ChartMethod> all_chart_methods();
@@ -33,7 +32,7 @@ std::vector<ChartMethod> all_chart_methods();
 struct ChartBudget {
     double element_scale = 1; // longest element edge, times the automatic one (or the scene's own)
     double target_error = 0.02;
-    int samples = 0; // form-factor samples; paths a point of the reference; 0: the method's own
+    int samples = 0; // of form factors; 0: the method has none
     bool operator==(const ChartBudget&) const = default;
 };
 // From hardly anything to more than one waits for, in steps that about triple the time.
@@ -85,7 +84,7 @@ std::vector<std::size_t> pareto_front(std::span<const glm::dvec2> points);
 
 // A method's curve: the least error that any of its runs had reached by then. x: seconds, y: error (RMS without noise).
 std::vector<glm::dvec2> curve_of(const MethodChart& chart, const ChartMethod& method);
-// The best of all methods that give a field (paths at points give none), and whose each point is.
+// The best of all methods, and whose each point is.
 struct FrontPoint {
     glm::dvec2 place{0};
     ChartMethod method;

@@ -8,7 +8,7 @@ bool Milestones::Counter::passed(std::uint32_t now) {
     if (now < seen) next = 1; // started anew
     const bool due = now != seen && now >= next;
     seen = now;
-    if (due) next = now + std::max(1u, now / 3);
+    if (due) next = now + std::max(1u, now / 2);
     return due;
 }
 

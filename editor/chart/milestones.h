@@ -13,8 +13,8 @@ public:
     explicit Milestones(bool count_shots) // steps take one shot at a time: what is done is known shot by shot
         : count_shots_(count_shots) {}
 
-    // After each step. True where the solver has finished its first, 2nd, 3rd, 4th, 5th, 7th ... (each time a third
-    // more) sweep over new rays or shot.
+    // After each step. True where the solver has finished its first, 2nd, 3rd, 4th, 6th, 9th ... (each time half as
+    // many again) sweep over new rays or shot.
     bool due(const SolveStatus& status);
 
 private:

@@ -51,8 +51,6 @@ public:
                 show();
                 if (const auto why_not = reason_not_to_start(method))
                     run.reason = *why_not;
-                else if (method.solver == SolverKind::reference)
-                    trace(run);
                 else
                     solve(run);
                 if (cancel_) {
@@ -118,7 +116,7 @@ private:
     // False: the figures are not of this world.
     bool look(ChartRun& run, const Solution& solution) {
         const SolveStatus& status = solution.status();
-        const auto values = measure_points(solution, points_, {MeasureAt::field, 0, 1}, cancel_);
+        const auto values = measure_points(solution, points_, {MeasureAt::field, 0, 1, false}, cancel_);
         if (cancel_) return true;
         const ErrorStatistics error = error_statistics(values, truth_);
         if (2 * error.missing > error.missing + error.counted || error.rms > astray) {
@@ -198,32 +196,6 @@ private:
     // A solver that has swept or shot has begun.
     static RunEnd end_of_failed(const SolveStatus& status) {
         return status.sweeps > 0 || status.shots > 0 ? RunEnd::diverged : RunEnd::refused;
-    }
-
-    // Paths at the points themselves; its time is that of tracing them.
-    void trace(ChartRun& run) {
-        for (const ChartRun& before : chart_.runs) {
-            if (!(before.method == run.method) || before.end != RunEnd::settled) continue;
-            const double predicted = before.seconds * run.budget.samples / before.budget.samples;
-            if (predicted > run_limit_ && predicted > before.seconds) {
-                run.end = RunEnd::unfinished;
-                run.reason = fmt::format("would not finish within {:.3g} s", run_limit_);
-                return;
-            }
-        }
-        const auto start = std::chrono::steady_clock::now();
-        const auto values =
-            measure_points(*base_, points_, {MeasureAt::reference, run.budget.samples, scene_.solve.seed + 5}, cancel_,
-                           [&](double) { show(); });
-        run.seconds = seconds_since(start);
-        if (cancel_) return;
-        const ErrorStatistics error = error_statistics(values, truth_);
-        double variance = 0;
-        for (const Irradiance& value : values)
-            variance += 1e-4 * value.standard_error_percent * value.standard_error_percent / double(values.size());
-        run.points.push_back({run.seconds, std::min(1.0, std::sqrt(variance)), error});
-        run.rays = std::uint64_t(run.budget.samples) * values.size();
-        run.end = RunEnd::settled;
     }
 
     Scene scene_;
