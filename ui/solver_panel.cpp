@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/scene/solver_words.h"
+#include "core/solve/choose_solver.h"
 #include "ui/panels.h"
 #include "ui/widgets.h"
 
@@ -65,7 +66,7 @@ const char* solver_name(SolverKind solver) {
 const char* solver_tip(SolverKind solver) {
     switch (solver) {
     case SolverKind::automatic:
-        return "The method with the least error for its time in what was measured: gathering";
+        return "The method with the least error for its time on scenes like this one: see the chart";
     case SolverKind::gathering:
         return "Direct light apart, rays gathered once and kept, sweeps over the kept rows";
     case SolverKind::shooting:
@@ -145,7 +146,7 @@ std::optional<Edit> solver_panel(const Document& document, const Snapshot& snaps
     bool any = false;      // changed for good
     bool dragging = false; // still changing
 
-    row_label(state, "Solver", solver_tip(chosen_solver(solve)));
+    row_label(state, "Solver", solver_tip(chosen_solver(document.scene(), solve)));
     any = solver_combo(state, solve.solver) || any;
     row_label(state, "");
     const float third = (ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x) / 3;

@@ -24,6 +24,7 @@ enum class SolvePhase { mesh, sketch, light, burial, refine, transport, solve, s
 
 struct Solution::State {
     std::shared_ptr<const Scene> scene;
+    SolverKind chosen = SolverKind::gathering; // what solves it: chosen_solver (choose_solver.h)
     SolvePhase phase = SolvePhase::mesh;
     SolveStatus status;
     std::uint32_t cursor = 0; // of the phase's time slices

@@ -55,8 +55,8 @@ void add_form_factor_options(CLI::App& app, SolveOverrides& solve) {
 }
 
 void add_solver(CLI::App& app, SolveOverrides& solve) {
-    add_word(app, "--solver", "How the light is solved, auto is gathering; else as the scene says", all_solvers,
-             solve.solver);
+    add_word(app, "--solver", "How the light is solved, auto takes what the charts found best; else as the scene says",
+             all_solvers, solve.solver);
     add_form_factor_options(app, solve);
 }
 
@@ -155,9 +155,11 @@ void add_measure_options(CLI::App& app, MeasureCommand& measure, MeasureWords& w
     add_integer(app, "--rays", "Hemisphere rays (paths of the reference) a point, 1 to 100000000 (1024)", 1, 100000000,
                 words.rays);
     add(app, "--solver", "NAME",
-        fmt::format("How the light is solved, auto is gathering and reference traces unbiased paths from each point, "
-                    "without radiosity; else as the scene says: {}",
-                    words_of(all_solvers)),
+        fmt::format(
+            "How the light is solved, auto takes what the charts found best and reference traces unbiased paths from "
+            "each point, "
+            "without radiosity; else as the scene says: {}",
+            words_of(all_solvers)),
         [&measure, &words](const std::string& text) {
             const auto solver = from_word(text, all_solvers);
             if (!solver) refuse("--solver", text, "allowed: " + words_of(all_solvers));
