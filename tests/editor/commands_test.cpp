@@ -233,7 +233,7 @@ TEST_F(Furnace, RendersAnEvenPictureThatSaysHowItWasMade) {
 
     const auto metadata = read_image_metadata(command.output);
     ASSERT_TRUE(metadata.has_value()) << metadata.error();
-    EXPECT_EQ(metadata->at("lueur:solver"), "gathering");
+    EXPECT_EQ(metadata->at("lueur:solver"), "auto");
     EXPECT_EQ(metadata->at("lueur:max_display"), "300");
     EXPECT_EQ(metadata->at("lueur:curve"), "gamma");
     EXPECT_EQ(metadata->at("lueur:gamma"), "2");
@@ -278,7 +278,7 @@ TEST_F(Furnace, SavesRadianceWithItsStoryToo) {
     ASSERT_EQ(run(command), 0);
     const auto metadata = read_image_metadata(command.output);
     ASSERT_TRUE(metadata.has_value()) << metadata.error();
-    EXPECT_EQ(metadata->at("lueur:solver"), "gathering");
+    EXPECT_EQ(metadata->at("lueur:solver"), "auto");
     EXPECT_FALSE(metadata->contains("lueur:max_display"));
 }
 
