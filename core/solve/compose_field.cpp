@@ -108,16 +108,17 @@ ChannelField irradiance_channels(const Solution::State& s, std::vector<float>& u
         const std::vector<float> ambient = s.ambient();
         const std::vector<float> left = s.unshot_at_vertices();
         std::copy(left.begin(), left.end(), unshot.begin());
-        tbb::parallel_for(Range(0, coarse, 256), [&](const Range& range) {
+        const bool at_all_vertices = indirect.count == count;
+        tbb::parallel_for(Range(0, indirect.count, 256), [&](const Range& range) {
             for (std::uint32_t i = range.begin(); i < range.end(); ++i)
                 for (int k = 0; k < channels; ++k) h[i][k] = indirect[i][k] + (ambient.empty() ? 0 : ambient[k]);
         });
         std::vector<glm::uvec3> coarse_elements;
         for (std::uint32_t e = 0; e < mesh.coarse_element_count; ++e) coarse_elements.push_back(mesh.nodes[e].vertices);
-        fill_buried(coarse_elements, s.buried, h);
+        if (!at_all_vertices) fill_buried(coarse_elements, s.buried, h);
         for (std::uint32_t v = coarse; v < count; ++v) { // parents come first
             const auto& p = mesh.vertices[v].parents;
-            for (int k = 0; k < channels; ++k) h[v][k] = 0.5f * (h[p[0]][k] + h[p[1]][k]);
+            for (int k = 0; k < channels && !at_all_vertices; ++k) h[v][k] = 0.5f * (h[p[0]][k] + h[p[1]][k]);
             unshot[v] = 0.5f * (unshot[p[0]] + unshot[p[1]]);
         }
     }
@@ -177,8 +178,8 @@ std::shared_ptr<const Field> compose_field(const Solution::State& s) {
 std::vector<double> irradiance_at(const Solution::State& s, std::uint32_t element, float b1, float b2) {
     const int channels = s.channels();
     std::vector<double> h(channels, 0);
+    const Located at_point = locate(s.mesh, element, b1, b2);
     if (s.is_traced()) {
-        const Located at_point = locate(s.mesh, element, b1, b2);
         std::vector<float> row(static_cast<std::size_t>(channels));
         float sum = 0;
         for (int k = 0; k < 3; ++k)
@@ -190,21 +191,22 @@ std::vector<double> irradiance_at(const Solution::State& s, std::uint32_t elemen
         }
         return h;
     }
-    const glm::uvec3 corners = s.mesh.nodes[element].vertices;
-    const float coarse_weight[3] = {1 - b1 - b2, b1, b2};
     if (s.solving && s.solver() != SolverKind::reference) {
+        const bool at_all_vertices = s.indirect().count == s.mesh.vertices.size();
+        const glm::uvec3 corners = at_all_vertices ? at_point.vertices : s.mesh.nodes[element].vertices;
+        const glm::vec3 weights = at_all_vertices ? at_point.weights : glm::vec3(1 - b1 - b2, b1, b2);
+        const auto counts = [&](int k) { return at_all_vertices || !s.buried[corners[k]]; };
         float sum = 0;
         for (int k = 0; k < 3; ++k)
-            if (!s.buried[corners[k]]) sum += coarse_weight[k];
+            if (counts(k)) sum += weights[k];
         const std::vector<float> ambient = s.ambient();
         for (int k = 0; k < 3; ++k) {
-            if (s.buried[corners[k]] || sum <= 0) continue;
+            if (!counts(k) || sum <= 0) continue;
             const float* row = s.indirect()[corners[k]];
-            for (int c = 0; c < channels; ++c) h[c] += double(coarse_weight[k] / sum) * row[c];
+            for (int c = 0; c < channels; ++c) h[c] += double(weights[k] / sum) * row[c];
         }
         for (std::size_t c = 0; c < ambient.size(); ++c) h[c] += ambient[c];
     }
-    const Located at_point = locate(s.mesh, element, b1, b2);
     float sum = 0;
     for (int k = 0; k < 3; ++k)
         if (!s.direct->buried()[at_point.vertices[k]]) sum += at_point.weights[k];

@@ -44,11 +44,16 @@ bool Solution::State::luminaire_is_lit(std::size_t luminaire) const {
         return !solving; // then it is in the patches' irradiance
     case SolverKind::automatic:
     case SolverKind::gathering:
-    case SolverKind::hierarchical:
     case SolverKind::reference:
         return true;
+    case SolverKind::hierarchical:
+        return direct_light_apart();
     }
     return true;
+}
+
+bool Solution::State::direct_light_apart() const {
+    return solver() != SolverKind::hierarchical || scene->solve.oracle == RefinementOracle::error;
 }
 
 const ChannelField& Solution::State::indirect() const {

@@ -7,6 +7,9 @@
 
 #include "core/solve/error_probes.h"
 #include "core/solve/gather_system.h"
+#include "core/solve/hierarchy.h"
+#include "core/solve/hierarchy_field.h"
+#include "core/solve/hierarchy_view.h"
 #include "core/solve/patch_solve.h"
 #include "core/solve/shooting.h"
 #include "core/solve/solution.h"
@@ -64,11 +67,14 @@ struct Solution::State {
     ChannelField gathered_direct;     // irradiance at receivers after one reflection of direct light
     ChannelField indirect_irradiance; // gathered_direct + W U at the coarse vertices, refreshed after sweeps
     Shooting shooting;
-    PatchSolve patch_solve;              // Jacobi, Gauss-Seidel, overshooting
-    std::unique_ptr<TracedField> traced; // of the reference solver
-    bool solving = false;                // system or shooting hold this scene's sources
-    std::shared_ptr<const Field> stock;  // the field of a solution that does not move any more
-    bool edit_open = true;               // last_edit_seconds is still to be set
+    PatchSolve patch_solve; // Jacobi, Gauss-Seidel, overshooting
+    std::unique_ptr<Hierarchy> hierarchy;
+    std::vector<LeafReading> leaf_readings;              // of the mesh's vertices
+    std::shared_ptr<const HierarchyView> hierarchy_view; // as of the last round of refinement
+    std::unique_ptr<TracedField> traced;                 // of the reference solver
+    bool solving = false;                                // system or shooting hold this scene's sources
+    std::shared_ptr<const Field> stock;                  // the field of a solution that does not move any more
+    bool edit_open = true;                               // last_edit_seconds is still to be set
 
     int channels() const { return wavelengths->size() + (trichromatic ? trichromatic->size() : 0); }
     // Coarse vertices by their own rays, fine ones where they are dark and inside a solid.
@@ -76,9 +82,11 @@ struct Solution::State {
     std::uint32_t material_of(std::uint32_t surface) const;
     std::optional<std::size_t> luminaire_of(std::uint32_t surface, bool back) const; // that shines on this side
     bool luminaire_is_lit(std::size_t luminaire) const;                              // shooting: it has shot
-    const ChannelField& indirect() const;                                            // irradiance at coarse vertices
+    // Irradiance at coarse vertices, or (hierarchical) at all.
+    const ChannelField& indirect() const;
     std::vector<float> ambient() const;            // irradiance to be added for display; only shooting has some
     std::vector<float> unshot_at_vertices() const; // luminous exitance at coarse vertices that is still to be sent on
+    bool direct_light_apart() const;               // all of it shown by DirectTransport, not by the solver
     SolverKind solver() const;                     // that is at work, never automatic
     bool is_traced() const;                        // fine vertices have their whole irradiance from paths
 

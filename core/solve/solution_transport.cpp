@@ -12,13 +12,13 @@ constexpr double receiver_cell = 0.3;          // of the coarse element size
 
 using State = Solution::State;
 
+} // namespace
+
 void publish_mesh(State& s) {
     s.published_mesh = std::make_shared<const Mesh>(s.mesh);
     s.status.vertices = static_cast<std::uint32_t>(s.mesh.vertices.size());
     s.status.elements = static_cast<std::uint32_t>(s.mesh.elements.size());
 }
-
-} // namespace
 
 void step_mesh(State& s) {
     s.status.stage = SolveStage::meshing;

@@ -85,8 +85,8 @@ void DirectTransport::collect_edges() {
         if (mesh_.nodes[next_node_].children == no_index) open_.push_back(next_node_);
     for (const std::uint32_t n : open_) {
         const glm::uvec3 v = mesh_.nodes[n].vertices;
-        const int longest = bisection_.longest_edge(n);
-        if (bisection_.edge_length(v[longest], v[(longest + 1) % 3]) < smallest2) continue;
+        const int longest = bisection_->longest_edge(n);
+        if (bisection_->edge_length(v[longest], v[(longest + 1) % 3]) < smallest2) continue;
         const glm::vec3 centre =
             (mesh_.vertices[v.x].position + mesh_.vertices[v.y].position + mesh_.vertices[v.z].position) / 3.0f;
         for (int k = 0; k < 3; ++k) {
@@ -128,15 +128,15 @@ void DirectTransport::split_bent() {
             const auto slot = edge_slot_.find(Bisection::edge_key(v[k], v[(k + 1) % 3]));
             if (slot != edge_slot_.end()) worst = std::max(worst, bent[slot->second]);
         }
-        const int longest = bisection_.longest_edge(n);
-        if (worst > 0) wanted.emplace_back(worst * bisection_.edge_length(v[longest], v[(longest + 1) % 3]), n);
+        const int longest = bisection_->longest_edge(n);
+        if (worst > 0) wanted.emplace_back(worst * bisection_->edge_length(v[longest], v[(longest + 1) % 3]), n);
     }
     std::sort(wanted.begin(), wanted.end(), [](const auto& a, const auto& b) {
         return a.first != b.first ? a.first > b.first : a.second < b.second;
     });
     for (const auto& [misfit, n] : wanted) {
         if (mesh_.vertices.size() >= params_.most_vertices) break;
-        if (mesh_.nodes[n].children == no_index) bisection_.split(n);
+        if (mesh_.nodes[n].children == no_index) bisection_->split(n);
     }
     // New vertices at middles that were looked at are lit already; the others (made for conformity) are lit now.
     const std::uint32_t after = static_cast<std::uint32_t>(mesh_.vertices.size());
@@ -192,6 +192,29 @@ void DirectTransport::spread_deviations() {
                         std::max(beside[e[k] * emitters + l], share_between_probes * brightest / 3);
         }
     for (std::size_t i = 0; i < beside.size(); ++i) deviations_[i] = std::max(deviations_[i], beside[i]);
+}
+
+void DirectTransport::follow_mesh(bool lit) {
+    const std::uint32_t before = static_cast<std::uint32_t>(buried_.size());
+    const std::uint32_t after = static_cast<std::uint32_t>(mesh_.vertices.size());
+    factors_.resize(std::size_t(after) * emitters_.size(), 0);
+    deviations_.resize(factors_.size(), 0);
+    buried_.resize(after, 0);
+    origins_ = ray_origins(mesh_, world_.epsilon());
+    bisection_.emplace(mesh_);
+    level_begun_ = false;
+    if (vertex_cursor_ == before) vertex_cursor_ = after;
+    if (!lit) return;
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(before, after, 16),
+                      [&](const tbb::blocked_range<std::uint32_t>& range) {
+                          for (std::uint32_t v = range.begin(); v < range.end(); ++v) {
+                              const std::size_t row = std::size_t(v) * emitters_.size();
+                              float* factors = factors_.data() + row;
+                              light(origins_[v], mesh_.vertices[v].normal, factors, deviations_.data() + row);
+                              if (equal_flux_light(factors) == 0)
+                                  find_buried(world_, mesh_, origins_, v, v + 1, buried_);
+                          }
+                      });
 }
 
 bool DirectTransport::refine(const std::atomic<bool>& cancel) {

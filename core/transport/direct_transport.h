@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -32,6 +33,10 @@ public:
     bool sketch(const std::atomic<bool>& cancel);         // a first guess of D at the vertices there are, one ray each
     bool light_vertices(const std::atomic<bool>& cancel); // D at the vertices there are
     bool refine(const std::atomic<bool>& cancel);         // then split, level by level, and light the new ones
+
+    // The mesh was cut by someone else: lights its new vertices (or leaves them dark, for one who needs no direct
+    // light).
+    void follow_mesh(bool lit);
 
     std::size_t emitter_count() const { return emitters_.size(); }
     const std::vector<Emitter>& emitters() const { return emitters_; }
@@ -65,7 +70,7 @@ private:
     Mesh& mesh_;
     std::vector<Emitter> emitters_;
     DirectParams params_;
-    Bisection bisection_;
+    std::optional<Bisection> bisection_;
     std::vector<float> weight_;               // exitance of each emitter at equal flux
     std::vector<float> factors_, deviations_; // vertices * emitters
     std::vector<std::uint8_t> buried_;
