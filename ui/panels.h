@@ -14,6 +14,7 @@ std::optional<Edit> materials_panel(const Document& document, const Snapshot& sn
 std::optional<Edit> luminaires_panel(const Document& document, const Snapshot& snapshot, UiState& state);
 std::optional<Edit> display_panel(const Document& document, const Snapshot& snapshot, UiState& state);
 std::optional<Edit> solver_panel(const Document& document, const Snapshot& snapshot, UiState& state);
+std::optional<Edit> chart_panel(const Document& document, const Snapshot& snapshot, UiState& state);
 
 std::string plus_minus(const Probe& probe); // " ± 1.8 %", in which 95 % of the true values lie; empty where unknown
 

@@ -5,10 +5,12 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "editor/chart/method_chart.h"
 #include "editor/edit.h"
 #include "editor/snapshot.h"
 #include "ui/commands.h"
@@ -51,6 +53,18 @@ struct Layout {
     float lower_height = 312; // of the lower half of the column
     bool panels_visible = true;
     bool probe_at_cursor = false;
+};
+
+// The chart of methods: what there is to show, and what was asked for.
+enum class ChartRequest { none, compute, cancel };
+struct ChartPanelState {
+    std::shared_ptr<const MethodChart> chart; // null: none yet
+    std::shared_ptr<const Scene> scene;       // that it was made of; null: read from a file
+    std::string source;                       // "made here", or the file
+    bool running = false;
+    double share = 0; // done, 0..1
+    std::string what; // is being run; or why there is no chart
+    ChartRequest request = ChartRequest::none;
 };
 
 struct UiState {
@@ -98,6 +112,8 @@ struct UiState {
     ChromaticityScale chromaticity_scale = ChromaticityScale::uv;
     bool chromaticity_whites = false; // only the part of the diagram where lamps lie
     LightReadings readings;           // of the colour panel
+
+    ChartPanelState chart;
 
     bool paused = false;
     bool help_open = false, log_open = false, about_open = false;

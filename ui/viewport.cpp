@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "core/scene/solver_words.h"
+#include "core/solve/choose_solver.h"
 #include "core/view/picture.h"
 #include "ui/false_colour.h"
 #include "ui/navigation.h"
@@ -219,7 +219,7 @@ std::optional<Edit> viewport(const Document& document, const Snapshot& snapshot,
     params.selected = state.selected;
     params.unshot_top = state.unshot_top;
     params.line_width = std::max(1.0f, std::round(1.2f * state.scale));
-    const SolverKind solver = chosen_solver(scene.solve);
+    const SolverKind solver = chosen_solver(scene);
     params.highlight_shooting =
         (solver == SolverKind::shooting || solver == SolverKind::overshooting) && !snapshot.status.settled;
     if (known && !snapshot.status.settled && !state.paused) view.last_motion = now;

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "core/scene/solver_words.h"
+#include "core/solve/choose_solver.h"
 #include "core/solve/solution_steps.h"
 
 namespace lueur {
@@ -96,6 +96,7 @@ void fail(State& s, std::string message) {
 Solution::Solution(std::shared_ptr<const Scene> scene)
     : state_(std::make_unique<State>()) {
     state_->scene = std::move(scene);
+    state_->chosen = chosen_solver(*state_->scene);
     plan_channels(*state_);
 }
 Solution::~Solution() = default;
@@ -105,7 +106,9 @@ Solution& Solution::operator=(Solution&&) noexcept = default;
 void Solution::update(std::shared_ptr<const Scene> scene, SolveFrom stale) {
     State& s = *state_;
     const SolveSettings before = s.scene->solve;
+    const SolverKind solver_before = s.solver();
     s.scene = std::move(scene);
+    s.chosen = chosen_solver(*s.scene);
     if (stale == SolveFrom::nothing) return;
     s.stock.reset();
     s.status.seconds = 0;
@@ -115,6 +118,7 @@ void Solution::update(std::shared_ptr<const Scene> scene, SolveFrom stale) {
     if (stale == SolveFrom::mesh) {
         auto fresh = std::make_unique<State>();
         fresh->scene = s.scene;
+        fresh->chosen = s.chosen;
         state_ = std::move(fresh);
         plan_channels(*state_);
         return;
@@ -126,8 +130,8 @@ void Solution::update(std::shared_ptr<const Scene> scene, SolveFrom stale) {
     }
     const SameChannels same = take_channels(s);
     const SolveSettings& now = s.scene->solve;
-    if (chosen_solver(now) != chosen_solver(before) || !same.channels || stale == SolveFrom::black ||
-        stale == SolveFrom::transport || s.phase == SolvePhase::failed)
+    if (s.solver() != solver_before || !same.channels || stale == SolveFrom::black || stale == SolveFrom::transport ||
+        s.phase == SolvePhase::failed)
         s.solving = false; // nothing of the old radiosities can be used
     if (stale == SolveFrom::transport || now.target_error != before.target_error || now.max_rays != before.max_rays) {
         s.passes.clear(); // the number of rays follows from the settings, never from what was there before

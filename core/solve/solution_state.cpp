@@ -31,7 +31,7 @@ std::optional<std::size_t> Solution::State::luminaire_of(std::uint32_t surface, 
 }
 
 SolverKind Solution::State::solver() const {
-    return chosen_solver(scene->solve);
+    return chosen;
 }
 
 bool Solution::State::luminaire_is_lit(std::size_t luminaire) const {

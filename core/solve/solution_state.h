@@ -29,6 +29,7 @@ enum class SolvePhase { mesh, sketch, light, burial, refine, transport, solve, s
 
 struct Solution::State {
     std::shared_ptr<const Scene> scene;
+    SolverKind chosen = SolverKind::gathering; // what solves it: chosen_solver (choose_solver.h)
     SolvePhase phase = SolvePhase::mesh;
     SolveStatus status;
     std::uint32_t cursor = 0; // of the phase's time slices
@@ -78,8 +79,8 @@ struct Solution::State {
     bool final_done = false;                             // all its rays are traced
     std::vector<glm::vec3> vertex_origins;               // of all vertices of the mesh
     std::shared_ptr<const HierarchyView> hierarchy_view; // as of the last round of refinement
-    bool solving = false;                                // system or shooting hold this scene's sources
     std::unique_ptr<TracedField> traced;                 // of the reference solver
+    bool solving = false;                                // system or shooting hold this scene's sources
     std::shared_ptr<const Field> stock;                  // the field of a solution that does not move any more
     bool edit_open = true;                               // last_edit_seconds is still to be set
 

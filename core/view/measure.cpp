@@ -61,7 +61,8 @@ Irradiance gather(const Solution::State& s, glm::vec3 origin, glm::vec3 normal, 
     return result;
 }
 
-Irradiance read_field(const Solution::State& s, const Field& field, glm::vec3 position, glm::vec3 normal) {
+// Without a field: no standard error.
+Irradiance read_field(const Solution::State& s, const Field* field, glm::vec3 position, glm::vec3 normal) {
     // The surface within a thousandth of the scene's size below or above the point.
     const float reach = 500 * s.world->epsilon();
     const Hit hit = s.world->closest({position + reach * normal, -normal, 0, 2 * reach});
@@ -73,11 +74,12 @@ Irradiance read_field(const Solution::State& s, const Field& field, glm::vec3 po
         return result;
     }
     result = from_channels(*s.wavelengths, irradiance_at(s, hit.element, hit.b1, hit.b2));
+    if (!field) return result;
     const Located at_point = locate(s.mesh, hit.element, hit.b1, hit.b2);
     double variance = 0;
     for (int k = 0; k < 3; ++k) {
-        const double at_vertex = field.error[at_point.vertices[k]],
-                     between = field.interpolation_error[at_point.vertices[k]];
+        const double at_vertex = field->error[at_point.vertices[k]],
+                     between = field->interpolation_error[at_point.vertices[k]];
         variance += double(at_point.weights[k]) * (at_vertex * at_vertex + between * between);
     }
     set_standard_error(result, std::sqrt(variance));
@@ -101,7 +103,7 @@ std::vector<Irradiance> measure_points(const Solution& solution, std::span<const
     std::vector<Irradiance> results(points.size());
     if (!s.world) return results;
     const PathLights lights = params.at == MeasureAt::reference ? make_path_lights(s) : PathLights{};
-    const auto field = params.at == MeasureAt::field ? solution.field() : nullptr;
+    const auto field = params.at == MeasureAt::field && params.standard_errors ? solution.field() : nullptr;
     const std::size_t block = params.at == MeasureAt::reference ? 16 : 128;
     for (std::size_t first = 0; first < points.size(); first += block) {
         if (cancel.load(std::memory_order_relaxed)) return {};
@@ -114,7 +116,7 @@ std::vector<Irradiance> measure_points(const Solution& solution, std::span<const
                 results[i] = gather(s, origin, normal, params.rays, seed);
                 break;
             case MeasureAt::field:
-                results[i] = read_field(s, *field, position, normal);
+                results[i] = read_field(s, field.get(), position, normal);
                 break;
             case MeasureAt::reference:
                 results[i] = reference(s, lights, origin, normal, params.rays, seed, cancel);

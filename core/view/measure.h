@@ -31,6 +31,7 @@ struct MeasureParams {
     MeasureAt at = MeasureAt::gather;
     int rays = 1024; // hemisphere rays (gather) or paths (reference) a point
     std::uint32_t seed = 1;
+    bool standard_errors = true; // false: those of the field, which cost a look at all of it, are left 0
 };
 
 // `field`: a point further than 1 mm * scene scale from any surface, or facing away from it, gives NaN.

@@ -8,7 +8,7 @@
 #include "core/display/legend.h"
 #include "core/scene/floor.h"
 #include "core/scene/scene_file.h"
-#include "core/scene/solver_words.h"
+#include "core/solve/choose_solver.h"
 #include "core/transport/mesh.h"
 #include "core/view/reference_picture.h"
 #include "core/view/spectral_picture.h"
@@ -124,7 +124,7 @@ int render(const RenderCommand& command, BatchSession& session) {
         session.error("--spectral: needs an output ending in .exr, --quantity colour and other wavelengths than rgb");
         return exit_mistake;
     }
-    const bool traced = chosen_solver(scene->solve) == SolverKind::reference;
+    const bool traced = chosen_solver(*scene) == SolverKind::reference;
     const bool of_the_field =
         command.quantity == PictureQuantity::colour_difference || command.quantity == PictureQuantity::error;
     if (traced && (command.spectral || of_the_field)) {

@@ -7,6 +7,7 @@
 #include <tbb/task_arena.h>
 
 #include "core/scene/solver_words.h"
+#include "core/solve/choose_solver.h"
 
 namespace lueur {
 
@@ -28,8 +29,8 @@ std::string report_json(const std::string& command, const BatchParams& params, c
     report["command"] = command;
     report["scene"] = params.scene.string();
     report["solver"] = to_string(settings.solver);
-    report["solver_in_use"] = to_string(chosen_solver(settings));
-    if (uses_form_factors(chosen_solver(settings))) {
+    report["solver_in_use"] = to_string(chosen_solver(*solution.scene()));
+    if (uses_form_factors(chosen_solver(*solution.scene()))) {
         report["form_factors"] = to_string(settings.form_factors);
         report["form_factor_samples"] = settings.form_factor_samples;
     }
@@ -52,7 +53,7 @@ std::string report_json(const std::string& command, const BatchParams& params, c
     report["matrix_bytes"] = status.matrix_bytes;
     report["vertices"] = status.vertices;
     report["elements"] = status.elements;
-    if (chosen_solver(settings) == SolverKind::hierarchical) {
+    if (chosen_solver(*solution.scene()) == SolverKind::hierarchical) {
         report["links"] = status.links;
         report["link_elements"] = status.link_elements;
         report["link_levels"] = status.link_levels;
