@@ -153,9 +153,10 @@ MethodEstimate monte_carlo(const PolygonPair& pair, const FormFactorSettings& se
     // Near a common edge f exceeds K with a probability as K^(-3/2): what lies beyond the largest of n is twice that
     // one's share, and no variance of the sample knows of it. Where f is bounded it is small.
     double beyond = 2 * most / n;
-    // And what no pair has found yet: the most that one can add, of all that j can send to i.
-    if (const double apart = distance(pair.from, pair.to); apart > 0)
-        beyond = std::max(beyond, std::min(pair.to.area / (pi * apart * apart * n), pair.to.area / pair.from.area));
+    // Where one pair may outweigh all others (as region_warning has it), none of those may have been found yet.
+    const double apart = distance(pair.from, pair.to), most_share = pair.to.area / (pi * apart * apart * n),
+                 whole = std::min(1.0, pair.to.area / pair.from.area);
+    if (apart > 0 && most_share > 0.1 * whole) beyond = std::max(beyond, std::min(most_share, whole));
     return {mean, std::sqrt(variance / n) + beyond, static_cast<std::uint64_t>(taken)};
 }
 
