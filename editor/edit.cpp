@@ -7,6 +7,7 @@
 
 #include "core/scene/scene_file.h"
 #include "core/scene/solver_words.h"
+#include "core/solve/choose_solver.h"
 #include "core/spectrum/overload.h"
 
 namespace lueur {
@@ -25,13 +26,14 @@ std::optional<std::string> missing(const char* kind, const std::vector<Entry>& e
     return fmt::format("there is no {} {}; the scene has {}", kind, at(index), entries.size());
 }
 
-Stage stage_of_settings(const SolveSettings& before, const SolveSettings& after) {
+Stage stage_of_settings(const Scene& scene, const SolveSettings& after) {
+    const SolveSettings& before = scene.solve;
     if (after.element_size != before.element_size) return Stage::mesh;
     // Rays already traced were drawn from another sequence, or are more than are allowed now.
     if (after.seed != before.seed || after.max_rays < before.max_rays) return Stage::transport;
     // Form factors and links are kept by the solvers that use them; to the others these settings are nothing.
-    const SolverKind solver = chosen_solver(after);
-    if (solver == chosen_solver(before)) {
+    const SolverKind solver = chosen_solver(scene, after);
+    if (solver == chosen_solver(scene)) {
         const bool other_factors = after.form_factors != before.form_factors ||
                                    after.form_factor_samples != before.form_factor_samples ||
                                    after.matrix_memory != before.matrix_memory;
@@ -178,7 +180,7 @@ Stage first_stale_stage(const Edit& edit, const Scene& before) {
             [](const SetEmitSide&) { return Stage::mesh; }, // a side that emits must have elements
             [](const SetCamera&) { return Stage::view; },
             [](const SetDisplay&) { return Stage::display; },
-            [&](const SetSolve& e) { return stage_of_settings(before.solve, e.solve); },
+            [&](const SetSolve& e) { return stage_of_settings(before, e.solve); },
             [](const ReplaceScene&) { return Stage::mesh; },
         },
         edit);

@@ -21,6 +21,8 @@ const FalseColourSettings& scale_of(const DisplaySettings& display, PictureQuant
         return display.illuminance_scale;
     case PictureQuantity::colour_difference:
         return colour_difference_scale();
+    case PictureQuantity::error:
+        return error_scale();
     }
     return display.luminance_scale;
 }
@@ -34,6 +36,8 @@ std::string_view unit_of(PictureQuantity quantity) {
         return "lx";
     case PictureQuantity::colour_difference:
         return "dE2000";
+    case PictureQuantity::error:
+        return "%";
     }
     return {};
 }

@@ -22,6 +22,8 @@ std::string to_string(PictureQuantity quantity) {
         return "illuminance";
     case PictureQuantity::colour_difference:
         return "colour_difference";
+    case PictureQuantity::error:
+        return "error";
     }
     return {};
 }
@@ -141,7 +143,7 @@ std::expected<PictureRecipe, std::string> recipe_from_metadata(const ImageMetada
     if (const auto path = metadata.find("lueur:scene_path"); path != metadata.end()) recipe.scene_file = path->second;
     words.choice("quantity", recipe.quantity,
                  std::array{PictureQuantity::colour, PictureQuantity::luminance, PictureQuantity::illuminance,
-                            PictureQuantity::colour_difference});
+                            PictureQuantity::colour_difference, PictureQuantity::error});
     words.choice("solver", recipe.solve.solver, all_solvers);
     words.choice("form_factors", recipe.solve.form_factors, all_form_factor_methods);
     words.number("form_factor_samples", recipe.solve.form_factor_samples);

@@ -25,6 +25,8 @@ std::optional<Probe> probe(const Snapshot& snapshot, glm::vec3 origin, glm::vec3
     result.irradiance = point->irradiance;
     result.radiance = point->radiance;
     result.rgb = rgb_from_xyz(srgb) * point->radiance;
+    result.error = point->error;
+    result.interval_factor = snapshot.field->interval_factor;
     result.unshot = point->unshot;
     result.colour_difference = point->colour_difference;
     if (const auto channels = irradiance_channels(*snapshot.field, *point); !channels.empty()) {

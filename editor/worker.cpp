@@ -133,10 +133,13 @@ void Worker::State::publish(bool is_paused) {
     next->scene = solution->scene();
     next->mesh = solution->mesh();
     next->world = solution->world();
+    next->hierarchy = solution->hierarchy();
     // An edit of the display or the camera shows the same light.
     next->field = field_stale || !snapshot->field ? solution->field() : snapshot->field;
     field_stale = false;
     next->status = solution->status();
+    // The field knows its error better than the solver, which looks at it now and then.
+    if (next->field) next->status.estimated_error = next->field->scene_error;
     next->status.paused = is_paused;
     next->history = history;
     {

@@ -32,6 +32,7 @@ EditorWindow::EditorWindow(std::unique_ptr<Window> window, std::unique_ptr<Rende
     , renderer_(std::move(renderer))
     , preferences_(std::move(preferences))
     , screenshots_(Window::wake)
+    , charting_(Window::wake)
     , worker_(worker_params(threads)) {
     state_.layout = preferences_.layout;
     if (const char* file = std::getenv("LUEUR_FRAME_LOG")) frame_log_.open(file);
@@ -181,6 +182,7 @@ void EditorWindow::loop() {
             else
                 say(Severity::error, done.error());
         }
+        follow_chart();
         for (const auto command : std::exchange(state_.commands, {})) do_command(command);
         for (const auto& file : std::exchange(state_.files_to_open, {})) ask_first({false, file});
         if (worker_.latest()->revision != snapshot_->revision) frames_left_ = std::max(frames_left_, 1);

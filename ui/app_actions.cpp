@@ -5,9 +5,11 @@
 
 #include "core/display/calibration.h"
 #include "core/display/image_file.h"
+#include "core/scene/files.h"
 #include "core/scene/scene_file.h"
 #include "core/spectrum/read_spectrum.h"
 #include "editor/asset_path.h"
+#include "editor/chart/chart_table.h"
 #include "ui/dropped_files.h"
 #include "ui/editor_window.h"
 
@@ -54,7 +56,53 @@ void EditorWindow::show_scene(Document document) {
     state_.exposure = {};
     state_.unshot_top = 0;
     view_.home = document_.scene().camera;
+    find_chart();
     submit(Stage::mesh);
+}
+
+void EditorWindow::find_chart() {
+    charting_.cancel();
+    state_.chart = {};
+    const auto file = chart_file_of(document_.file());
+    if (file.empty()) return;
+    const auto text = read_bytes(file);
+    auto chart = text ? parse_chart_table(*text, file.string())
+                      : std::unexpected(std::vector{file.string() + ": " + text.error()});
+    if (!chart) {
+        for (const auto& fault : chart.error()) say(Severity::warning, fault);
+        return;
+    }
+    chart->scene = document_.scene().name;
+    state_.chart.chart = std::make_shared<const MethodChart>(std::move(*chart));
+    state_.chart.source = "from " + file.filename().string();
+}
+
+// Begins and ends what was asked for, and takes over what there is to show.
+void EditorWindow::follow_chart() {
+    ChartPanelState& panel = state_.chart;
+    switch (std::exchange(panel.request, ChartRequest::none)) {
+    case ChartRequest::none:
+        break;
+    case ChartRequest::compute:
+        charting_.start(document_.shared_scene(), {});
+        panel.running = true;
+        break;
+    case ChartRequest::cancel:
+        charting_.cancel();
+        break;
+    }
+    if (!panel.running) return;
+    const ChartJob::View job = charting_.view();
+    if (job.share != panel.share || job.what != panel.what || job.running != panel.running)
+        frames_left_ = std::max(frames_left_, 1);
+    if (job.chart && job.chart != panel.chart) {
+        panel.chart = job.chart;
+        panel.scene = job.scene;
+        panel.source = "made here";
+    }
+    panel.running = job.running;
+    panel.share = job.share;
+    panel.what = job.what;
 }
 
 void EditorWindow::open(const std::filesystem::path& file) {
@@ -178,6 +226,9 @@ void EditorWindow::do_command(Command command) {
     case Command::view_illuminance:
         state_.view = ViewMode::illuminance;
         break;
+    case Command::view_error:
+        state_.view = ViewMode::error;
+        break;
     case Command::view_side_by_side:
     case Command::view_difference:
         state_.view = command == Command::view_difference ? ViewMode::difference : ViewMode::side_by_side;
@@ -193,6 +244,12 @@ void EditorWindow::do_command(Command command) {
         break;
     case Command::toggle_panels:
         state_.layout.panels_visible = !state_.layout.panels_visible;
+        break;
+    case Command::toggle_links:
+        state_.links_shown = !state_.links_shown;
+        break;
+    case Command::toggle_levels:
+        state_.levels_shown = !state_.levels_shown;
         break;
     case Command::toggle_probe:
         state_.layout.probe_at_cursor = !state_.layout.probe_at_cursor;

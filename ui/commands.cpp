@@ -7,7 +7,7 @@
 namespace lueur {
 namespace {
 
-constexpr std::array<CommandInfo, 27> table{{
+constexpr std::array<CommandInfo, 29> table{{
     {Command::open, "Open...", "Ctrl+O"},
     {Command::save, "Save", "Ctrl+S"},
     {Command::save_as, "Save as...", "Ctrl+Shift+S"},
@@ -24,10 +24,13 @@ constexpr std::array<CommandInfo, 27> table{{
     {Command::view_illuminance, "Illuminance, isolux lines", "5"},
     {Command::view_side_by_side, "Spectral beside RGB", "6"},
     {Command::view_difference, "Difference from RGB", "7"},
+    {Command::view_error, "Estimated error", "8"},
     {Command::frame_selection, "Frame the selection, or all", "F"},
     {Command::home, "Camera of the scene", "Home"},
     {Command::toggle_panels, "Hide or show the panels", "Tab"},
     {Command::toggle_probe, "Probe beside the pointer", "T"},
+    {Command::toggle_links, "Links of the place clicked at", "L"},
+    {Command::toggle_levels, "Outlines of the element levels", "V"},
     {Command::deselect, "Select nothing", "Esc"},
     {Command::pause, "Pause or go on solving", "Space"},
     {Command::step, "One step while paused", "."},
@@ -95,6 +98,9 @@ std::optional<Command> command_for_key(int key, int modifiers) {
     case GLFW_KEY_7:
     case GLFW_KEY_KP_7:
         return Command::view_difference;
+    case GLFW_KEY_8:
+    case GLFW_KEY_KP_8:
+        return Command::view_error;
     case GLFW_KEY_F:
         return Command::frame_selection;
     case GLFW_KEY_HOME:
@@ -103,6 +109,10 @@ std::optional<Command> command_for_key(int key, int modifiers) {
         return Command::toggle_panels;
     case GLFW_KEY_T:
         return Command::toggle_probe;
+    case GLFW_KEY_L:
+        return Command::toggle_links;
+    case GLFW_KEY_V:
+        return Command::toggle_levels;
     case GLFW_KEY_ESCAPE:
         return Command::deselect;
     case GLFW_KEY_SPACE:

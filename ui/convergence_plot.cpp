@@ -64,7 +64,7 @@ void convergence_plot(const Snapshot& snapshot, double target_error, UiState& st
 
     ConvergenceRuns& past = state.convergence_runs;
     past.note(snapshot);
-    const std::string present = snapshot.scene ? solver_label(snapshot.scene->solve) : std::string();
+    const std::string present = snapshot.scene ? solver_label(*snapshot.scene) : std::string();
     const auto& history = snapshot.history;
     const auto& status = snapshot.status;
     double smallest = std::min(target_error, 1.0);

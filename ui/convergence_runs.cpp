@@ -12,7 +12,7 @@ void ConvergenceRuns::note(const Snapshot& snapshot) {
     if (geometry != snapshot.scene->geometry) runs.clear();
     geometry = snapshot.scene->geometry;
     if (snapshot.history.empty()) return;
-    const std::string name = solver_label(snapshot.scene->solve);
+    const std::string name = solver_label(*snapshot.scene);
     const auto known = std::ranges::find(runs, name, &ConvergenceRun::name);
     if (known == runs.end())
         runs.push_back({name, snapshot.history});

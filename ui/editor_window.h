@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "editor/chart/chart_job.h"
 #include "editor/commands/command_line.h"
 #include "editor/document.h"
 #include "editor/worker.h"
@@ -52,6 +53,8 @@ private:
     void file_chosen(const std::filesystem::path& file);
     void request_file(const FileRequest& request);
     void log_facts();
+    void find_chart(); // that lies beside the scene or is shipped with it
+    void follow_chart();
     double seconds_to_wait() const;
 
     std::unique_ptr<Window> window_;
@@ -63,6 +66,7 @@ private:
     FileBrowser browser_;
     FileRequest browsing_for_;
     Screenshots screenshots_;
+    ChartJob charting_;
     std::shared_ptr<const Snapshot> snapshot_ = std::make_shared<Snapshot>();
     std::optional<Pending> pending_;
     bool ask_unsaved_ = false, pending_after_save_ = false;

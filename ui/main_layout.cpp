@@ -143,6 +143,7 @@ std::vector<Edit> main_layout(const Document& document, const Snapshot& snapshot
         if (ImGui::BeginTabBar("##output")) {
             tab(document, snapshot, state, "Display", false, edits, display_panel);
             tab(document, snapshot, state, "Solver", false, edits, solver_panel);
+            tab(document, snapshot, state, "Chart", false, edits, chart_panel);
             ImGui::EndTabBar();
         }
         ImGui::End();

@@ -76,12 +76,17 @@ double menu_bar(const Document& document, const Preferences& preferences, UiStat
         item(state, Command::view_illuminance, state.view == ViewMode::illuminance);
         item(state, Command::view_side_by_side, state.view == ViewMode::side_by_side);
         item(state, Command::view_difference, state.view == ViewMode::difference);
+        item(state, Command::view_error, state.view == ViewMode::error);
         ImGui::Separator();
         item(state, Command::frame_selection);
         item(state, Command::home);
         ImGui::Separator();
         item(state, Command::toggle_panels, state.layout.panels_visible);
         item(state, Command::toggle_probe, state.layout.probe_at_cursor);
+        ImGui::Separator();
+        item(state, Command::toggle_links, state.links_shown);
+        item(state, Command::toggle_levels, state.levels_shown);
+        ImGui::Separator();
         if (ImGui::BeginMenu("Size of the interface")) {
             for (const double scale : {0.75, 0.9, 1.0, 1.1, 1.25, 1.5, 1.75, 2.0, 2.5})
                 if (ImGui::MenuItem(fmt::format("{:.0f} %", 100 * scale).c_str(), nullptr,

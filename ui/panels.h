@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "editor/document.h"
 #include "editor/snapshot.h"
@@ -13,6 +14,9 @@ std::optional<Edit> materials_panel(const Document& document, const Snapshot& sn
 std::optional<Edit> luminaires_panel(const Document& document, const Snapshot& snapshot, UiState& state);
 std::optional<Edit> display_panel(const Document& document, const Snapshot& snapshot, UiState& state);
 std::optional<Edit> solver_panel(const Document& document, const Snapshot& snapshot, UiState& state);
+std::optional<Edit> chart_panel(const Document& document, const Snapshot& snapshot, UiState& state);
+
+std::string plus_minus(const Probe& probe); // " ± 1.8 %", in which 95 % of the true values lie; empty where unknown
 
 // These only show.
 void convergence_plot(const Snapshot& snapshot, double target_error, UiState& state, float width, float height);

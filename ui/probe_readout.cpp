@@ -20,6 +20,13 @@ std::string three(const glm::dvec3& v) {
 
 } // namespace
 
+std::string plus_minus(const Probe& probe) {
+    const double half = probe.interval_factor * static_cast<double>(probe.error);
+    if (!(half > 0) || !(probe.irradiance.y > 0)) return {};
+    const double percent = 100 * half / probe.irradiance.y;
+    return percent < 100 ? fmt::format(" ± {} %", short_number(std::max(percent, 0.01))) : " ± over 100 %";
+}
+
 void probe_readout(const Document& document, UiState& state) {
     const auto& scene = document.scene();
     if (!state.hovered || at(state.hovered->object) >= scene.objects.size() ||
@@ -29,7 +36,7 @@ void probe_readout(const Document& document, UiState& state) {
     }
     const auto& probe = *state.hovered;
     ImGui::PushFont(state.fonts.heading);
-    ImGui::Text("%s lx", short_number(probe.irradiance.y).c_str());
+    ImGui::Text("%s lx%s", short_number(probe.irradiance.y).c_str(), plus_minus(probe).c_str());
     ImGui::SameLine(0, 16 * state.scale);
     ImGui::Text("%s cd/m²", short_number(probe.radiance.y).c_str());
     ImGui::PopFont();

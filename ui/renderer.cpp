@@ -98,7 +98,7 @@ std::expected<std::unique_ptr<Renderer>, std::string> Renderer::make() {
     for (GlBuffer* buffer :
          {&r.positions_, &r.uvs_, &r.objects_, &r.shades_.reflected, &r.shades_.emitted, &r.shades_.by_texel,
           &r.trichromatic_.reflected, &r.trichromatic_.emitted, &r.trichromatic_.by_texel, &r.unshot_, &r.illuminance_,
-          &r.difference_, &r.elements_, &r.coarse_})
+          &r.difference_, &r.error_, &r.elements_, &r.coarse_})
         *buffer = new_buffer();
     glBindVertexArray(r.vertex_array_);
     const auto attribute = [](GLuint index, GLuint buffer, GLint components) {
@@ -244,6 +244,7 @@ void Renderer::draw_mesh(const RenderParams& params, double max_display) {
     // The scalar of the vertices, see mesh.vert.glsl.
     glBindBuffer(GL_ARRAY_BUFFER, params.view == ViewMode::illuminance  ? illuminance_
                                   : params.view == ViewMode::difference ? difference_
+                                  : params.view == ViewMode::error      ? error_
                                                                         : unshot_);
     glVertexAttribPointer(5, 1, GL_FLOAT, GL_FALSE, 0, nullptr);
     use_shades(shades_);

@@ -102,7 +102,7 @@ private:
     void use_shades(const ShadeBuffers& shades);
     void draw_batches(const RenderParams& params, unsigned variant, const glm::mat4& clip, double max_display);
 
-    GlBuffer positions_, uvs_, objects_, unshot_, illuminance_, difference_, elements_, coarse_;
+    GlBuffer positions_, uvs_, objects_, unshot_, illuminance_, difference_, error_, elements_, coarse_;
     ShadeBuffers shades_, trichromatic_; // the second is used when the two are compared
     GlTexture coarse_texture_;
     std::map<const TextureImage*, GlTexture> textures_;

@@ -130,6 +130,10 @@ void Renderer::draw_display(const RenderParams& params, double divisor) {
         uniforms.set("quantity", 1);
         set_scale(uniforms, colour_difference_scale());
         break;
+    case ViewMode::error:
+        uniforms.set("quantity", 1);
+        set_scale(uniforms, error_scale());
+        break;
     case ViewMode::illuminance:
         uniforms.set("quantity", 1);
         set_scale(uniforms, params.display.illuminance_scale);

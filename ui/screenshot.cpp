@@ -80,6 +80,10 @@ void take_view(ScreenshotParams& params, ViewMode view) {
         params.quantity = PictureQuantity::colour_difference;
         params.false_colour = true;
         return;
+    case ViewMode::error:
+        params.quantity = PictureQuantity::error;
+        params.false_colour = true;
+        return;
     case ViewMode::shaded:
     case ViewMode::elements:
     case ViewMode::unshot:

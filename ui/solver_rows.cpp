@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/scene/solver_words.h"
+#include "core/solve/choose_solver.h"
 #include "core/solve/form_factor_matrix.h"
 #include "ui/widgets.h"
 
@@ -52,8 +53,9 @@ const char* form_factor_name(FormFactorMethod method) {
     return "";
 }
 
-std::string solver_label(const SolveSettings& settings) {
-    const SolverKind solver = chosen_solver(settings);
+std::string solver_label(const Scene& scene) {
+    const SolveSettings& settings = scene.solve;
+    const SolverKind solver = chosen_solver(scene);
     std::string label = solver_name(solver);
     if (uses_form_factors(solver) && settings.form_factors != FormFactorMethod::automatic)
         label += fmt::format(", {}", form_factor_name(settings.form_factors));
@@ -65,7 +67,7 @@ namespace {
 const char* solver_tip(SolverKind solver) {
     switch (solver) {
     case SolverKind::automatic:
-        return "The method with the least error for its time in what was measured: gathering";
+        return "The method with the least error for its time on scenes like this one: see the chart";
     case SolverKind::gathering:
         return "Direct light apart, rays gathered once and kept, sweeps over the kept rows";
     case SolverKind::shooting:
@@ -203,7 +205,7 @@ bool matrix_row(const Snapshot& snapshot, UiState& state, SolveSettings& solve) 
 bool solver_rows(const Snapshot& snapshot, UiState& state, SolveSettings& solve) {
     row_label(state, "Solver");
     bool any = word_combo(state, "solver", all_solvers, solver_name, solver_tip, solve.solver);
-    const SolverKind solver = chosen_solver(solve);
+    const SolverKind solver = snapshot.scene ? chosen_solver(*snapshot.scene, solve) : solve.solver;
     if (uses_form_factors(solver)) any = form_factor_rows(state, solve) || any;
     if (keeps_matrix(solver)) any = matrix_row(snapshot, state, solve) || any;
     if (solver == SolverKind::hierarchical) {

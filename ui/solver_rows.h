@@ -13,7 +13,7 @@ const char* solver_name(SolverKind solver);
 const char* form_factor_name(FormFactorMethod method);
 
 // "Jacobi, hemicube": what tells one curve of convergence from another.
-std::string solver_label(const SolveSettings& settings);
+std::string solver_label(const Scene& scene);
 
 // Changes `solve`; true when something is changed for good.
 bool solver_rows(const Snapshot& snapshot, UiState& state, SolveSettings& solve);

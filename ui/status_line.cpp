@@ -20,6 +20,10 @@ void status_line(const Document& document, const Snapshot& snapshot, UiState& st
         text = fmt::format("Settled in {} s", short_number(status.seconds));
     } else
         text = to_string(status.stage);
+    if (status.estimated_error > 0 && status.estimated_error < 1)
+        text += fmt::format("  ·  error {:.2g} %", 100 * status.estimated_error);
+    if (state.hovered)
+        text += fmt::format("  ·  {} lx{}", short_number(state.hovered->irradiance.y), plus_minus(*state.hovered));
     const float scale = state.scale, height = ImGui::GetTextLineHeight();
     auto* draw = ImGui::GetWindowDrawList();
     const auto corner = ImGui::GetCursorScreenPos();

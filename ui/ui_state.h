@@ -5,10 +5,12 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "editor/chart/method_chart.h"
 #include "editor/edit.h"
 #include "editor/snapshot.h"
 #include "ui/commands.h"
@@ -22,7 +24,7 @@
 
 namespace lueur {
 
-enum class ViewMode { shaded, elements, unshot, luminance, illuminance, side_by_side, difference };
+enum class ViewMode { shaded, elements, unshot, luminance, illuminance, side_by_side, difference, error };
 
 enum class ChromaticityScale { xy, uv }; // CIE 1931 x y, CIE 1976 u' v'
 
@@ -53,6 +55,18 @@ struct Layout {
     bool probe_at_cursor = false;
 };
 
+// The chart of methods: what there is to show, and what was asked for.
+enum class ChartRequest { none, compute, cancel };
+struct ChartPanelState {
+    std::shared_ptr<const MethodChart> chart; // null: none yet
+    std::shared_ptr<const Scene> scene;       // that it was made of; null: read from a file
+    std::string source;                       // "made here", or the file
+    bool running = false;
+    double share = 0; // done, 0..1
+    std::string what; // is being run; or why there is no chart
+    ChartRequest request = ChartRequest::none;
+};
+
 struct UiState {
     ViewMode view = ViewMode::shaded;
     std::optional<ObjectIndex> selected;
@@ -60,6 +74,13 @@ struct UiState {
     std::optional<LuminaireIndex> luminaire; // unfolded in the luminaires panel
     bool show_luminaires = false;            // bring the luminaires tab to the front once
     std::optional<Probe> hovered;
+
+    // The hierarchical solver's links and elements over the picture.
+    struct Place {
+        glm::vec3 position, normal;
+    };
+    bool links_shown = false, levels_shown = false;
+    std::optional<Place> link_place; // clicked at
 
     Layout layout;
     Fonts fonts;
@@ -91,6 +112,8 @@ struct UiState {
     ChromaticityScale chromaticity_scale = ChromaticityScale::uv;
     bool chromaticity_whites = false; // only the part of the diagram where lamps lie
     LightReadings readings;           // of the colour panel
+
+    ChartPanelState chart;
 
     bool paused = false;
     bool help_open = false, log_open = false, about_open = false;

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "core/scene/solver_words.h"
+#include "core/solve/choose_solver.h"
 #include "core/view/picture.h"
 #include "ui/false_colour.h"
 #include "ui/navigation.h"
@@ -62,6 +62,9 @@ void legend(const UiState& state, const ViewportState& view, const DisplaySettin
     }
     case ViewMode::difference:
         draw_legend(state, x, y, "Colour difference spectral - RGB, CIEDE2000", colour_difference_scale());
+        return;
+    case ViewMode::error:
+        draw_legend(state, x, y, "Estimated error of illuminance (one standard deviation), %", error_scale());
         return;
     case ViewMode::unshot:
         draw_legend(state, x, y, "Unshot light, lm/m²", unshot_scale(state.unshot_top));
@@ -192,7 +195,9 @@ std::optional<Edit> viewport(const Document& document, const Snapshot& snapshot,
     if (known && view.hovered && !view.dragging) state.hovered = probe_at(snapshot, camera, view, mouse.x, mouse.y);
     if (clicked) {
         state.selected.reset();
+        state.link_place.reset();
         if (state.hovered) {
+            state.link_place = {state.hovered->position, state.hovered->normal};
             state.selected = state.hovered->object;
             state.material = state.hovered->material;
             if (state.hovered->luminaire) {
@@ -214,7 +219,7 @@ std::optional<Edit> viewport(const Document& document, const Snapshot& snapshot,
     params.selected = state.selected;
     params.unshot_top = state.unshot_top;
     params.line_width = std::max(1.0f, std::round(1.2f * state.scale));
-    const SolverKind solver = chosen_solver(scene.solve);
+    const SolverKind solver = chosen_solver(scene);
     params.highlight_shooting =
         (solver == SolverKind::shooting || solver == SolverKind::overshooting) && !snapshot.status.settled;
     if (known && !snapshot.status.settled && !state.paused) view.last_motion = now;
@@ -225,6 +230,10 @@ std::optional<Edit> viewport(const Document& document, const Snapshot& snapshot,
     view.draw_seconds = renderer.draw_seconds();
 
     if (!known || !snapshot.mesh) busy_note(state, view, snapshot);
+    const OverlayArea area{static_cast<float>(view.x), static_cast<float>(view.y), static_cast<float>(view.width),
+                           static_cast<float>(view.height)};
+    if (known && state.levels_shown) draw_levels(state, snapshot, camera, area, view.outlines);
+    if (known && state.links_shown) draw_links(state, snapshot, camera, area);
     legend(state, view, params.display);
     state.scales_in_use = {params.display.luminance_scale, params.display.illuminance_scale};
     if (known && view.refined && state.shares_wanted) state.shares = renderer.shares(params.display);

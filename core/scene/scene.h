@@ -141,7 +141,7 @@ struct Camera {
 
 // Words of these: core/scene/solver_words.h.
 enum class SolverKind {
-    automatic, // chosen_solver
+    automatic, // core/solve/choose_solver.h
     gathering, // direct light apart, kept rays, truncated conjugate residuals
     shooting,  // progressive refinement, form factors made anew for each shot
     overshooting,

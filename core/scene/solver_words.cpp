@@ -62,10 +62,6 @@ bool is_word(std::string_view text, std::string_view word) {
     return std::ranges::equal(text, word, [](char a, char b) { return a == b || (a == '-' && b == '_'); });
 }
 
-SolverKind chosen_solver(const SolveSettings& settings) {
-    return settings.solver == SolverKind::automatic ? SolverKind::gathering : settings.solver;
-}
-
 bool uses_form_factors(SolverKind solver) {
     switch (solver) {
     case SolverKind::overshooting:

@@ -38,9 +38,6 @@ std::string words_of(const std::array<Enum, N>& all) { // "jacobi, gauss_seidel"
     return words;
 }
 
-// What `automatic` stands for.
-SolverKind chosen_solver(const SolveSettings& settings);
-
 // The solver needs form factors between patches: the method and its samples mean something to it.
 bool uses_form_factors(SolverKind solver);
 

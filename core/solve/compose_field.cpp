@@ -7,8 +7,10 @@
 #include <tbb/parallel_for.h>
 
 #include "core/scene/spectral_content.h"
+#include "core/solve/error_estimate.h"
 #include "core/solve/restriction.h"
 #include "core/solve/solution_state.h"
+#include "core/solve/traced_field.h"
 #include "core/spectrum/colour_difference.h"
 
 namespace lueur {
@@ -94,21 +96,29 @@ ChannelField irradiance_channels(const Solution::State& s, std::vector<float>& u
     const int channels = s.channels();
     ChannelField h(count, channels);
     unshot.assign(count, 0);
-    if (s.solving) {
+    if (s.is_traced()) {
+        tbb::parallel_for(Range(0, count, 256), [&](const Range& range) {
+            for (std::uint32_t v = range.begin(); v < range.end(); ++v) s.traced->irradiance(v, h[v]);
+        });
+        fill_buried(mesh.elements, s.traced->buried, h);
+        return h;
+    }
+    if (s.solving && s.solver() != SolverKind::reference) {
         const ChannelField& indirect = s.indirect();
         const std::vector<float> ambient = s.ambient();
         const std::vector<float> left = s.unshot_at_vertices();
         std::copy(left.begin(), left.end(), unshot.begin());
-        tbb::parallel_for(Range(0, coarse, 256), [&](const Range& range) {
+        const bool at_all_vertices = indirect.count == count;
+        tbb::parallel_for(Range(0, indirect.count, 256), [&](const Range& range) {
             for (std::uint32_t i = range.begin(); i < range.end(); ++i)
                 for (int k = 0; k < channels; ++k) h[i][k] = indirect[i][k] + (ambient.empty() ? 0 : ambient[k]);
         });
         std::vector<glm::uvec3> coarse_elements;
         for (std::uint32_t e = 0; e < mesh.coarse_element_count; ++e) coarse_elements.push_back(mesh.nodes[e].vertices);
-        fill_buried(coarse_elements, s.buried, h);
+        if (!at_all_vertices) fill_buried(coarse_elements, s.buried, h);
         for (std::uint32_t v = coarse; v < count; ++v) { // parents come first
             const auto& p = mesh.vertices[v].parents;
-            for (int k = 0; k < channels; ++k) h[v][k] = 0.5f * (h[p[0]][k] + h[p[1]][k]);
+            for (int k = 0; k < channels && !at_all_vertices; ++k) h[v][k] = 0.5f * (h[p[0]][k] + h[p[1]][k]);
             unshot[v] = 0.5f * (unshot[p[0]] + unshot[p[1]]);
         }
     }
@@ -161,27 +171,42 @@ std::shared_ptr<const Field> compose_field(const Solution::State& s) {
     }
     if (irradiance.values.size() <= largest_channel_field) field->irradiance = std::move(irradiance);
     field->wavelengths = s.wavelengths;
+    estimate_error(s, *field);
     return field;
 }
 
 std::vector<double> irradiance_at(const Solution::State& s, std::uint32_t element, float b1, float b2) {
     const int channels = s.channels();
     std::vector<double> h(channels, 0);
-    const glm::uvec3 corners = s.mesh.nodes[element].vertices;
-    const float coarse_weight[3] = {1 - b1 - b2, b1, b2};
-    if (s.solving) {
+    const Located at_point = locate(s.mesh, element, b1, b2);
+    if (s.is_traced()) {
+        std::vector<float> row(static_cast<std::size_t>(channels));
         float sum = 0;
         for (int k = 0; k < 3; ++k)
-            if (!s.buried[corners[k]]) sum += coarse_weight[k];
+            if (!s.traced->buried[at_point.vertices[k]]) sum += at_point.weights[k];
+        for (int k = 0; k < 3; ++k) {
+            if (s.traced->buried[at_point.vertices[k]] || sum <= 0) continue;
+            s.traced->irradiance(at_point.vertices[k], row.data());
+            for (std::size_t c = 0; c < h.size(); ++c) h[c] += double(at_point.weights[k] / sum) * double(row[c]);
+        }
+        return h;
+    }
+    if (s.solving && s.solver() != SolverKind::reference) {
+        const bool at_all_vertices = s.indirect().count == s.mesh.vertices.size();
+        const glm::uvec3 corners = at_all_vertices ? at_point.vertices : s.mesh.nodes[element].vertices;
+        const glm::vec3 weights = at_all_vertices ? at_point.weights : glm::vec3(1 - b1 - b2, b1, b2);
+        const auto counts = [&](int k) { return at_all_vertices || !s.buried[corners[k]]; };
+        float sum = 0;
+        for (int k = 0; k < 3; ++k)
+            if (counts(k)) sum += weights[k];
         const std::vector<float> ambient = s.ambient();
         for (int k = 0; k < 3; ++k) {
-            if (s.buried[corners[k]] || sum <= 0) continue;
+            if (!counts(k) || sum <= 0) continue;
             const float* row = s.indirect()[corners[k]];
-            for (int c = 0; c < channels; ++c) h[c] += double(coarse_weight[k] / sum) * row[c];
+            for (int c = 0; c < channels; ++c) h[c] += double(weights[k] / sum) * row[c];
         }
         for (std::size_t c = 0; c < ambient.size(); ++c) h[c] += ambient[c];
     }
-    const Located at_point = locate(s.mesh, element, b1, b2);
     float sum = 0;
     for (int k = 0; k < 3; ++k)
         if (!s.direct->buried()[at_point.vertices[k]]) sum += at_point.weights[k];

@@ -23,6 +23,14 @@ struct Shades {
 struct Field : Shades {
     std::vector<glm::vec3> irradiance_xyz; // lx in Y
     std::vector<float> unshot;             // unshot (or residual) luminous exitance, lm m^-2
+    // How wrong the illuminance may be (error_estimate.h), lx, one standard deviation: at the vertices, and what
+    // interpolation adds between them. The interval in which 95 % of the true values lie is interval_factor of it to
+    // both sides.
+    std::vector<float> error, interpolation_error;
+    // Both together in per cent of the illuminance (of 2 % of the mean where it is darker): the map.
+    std::vector<float> relative_error;
+    double interval_factor = 1.96;
+    double scene_error = 1; // relative RMS over the surfaces, those darker than 2 % of the mean left out
     // The lecture's trichromatic approach beside it, when it was asked for; and how far apart the two are: CIEDE2000,
     // white being what a white surface reflects of the same light.
     std::optional<Shades> trichromatic;

@@ -64,6 +64,18 @@ bool fill_rows(FormFactorMatrix& matrix, const PatchScene& patches, FormFactorMe
     return cursor >= matrix.n;
 }
 
+void transpose(FormFactorMatrix& matrix) {
+    constexpr std::uint32_t tile = 32;
+    const std::uint32_t tiles = (matrix.n + tile - 1) / tile;
+    tbb::parallel_for(std::uint32_t(0), tiles, [&](std::uint32_t ti) {
+        for (std::uint32_t tj = 0; tj <= ti; ++tj)
+            for (std::uint32_t i = ti * tile; i < std::min(matrix.n, (ti + 1) * tile); ++i)
+                for (std::uint32_t j = tj * tile; j < std::min(i, (tj + 1) * tile); ++j)
+                    std::swap(matrix.row(i)[j], matrix.row(j)[i]);
+    });
+    matrix.transposed = !matrix.transposed;
+}
+
 RowSums limit_row_sums(FormFactorMatrix& matrix) {
     constexpr double rounding = 1e-6; // of float rows: not worth a word
     RowSums found;

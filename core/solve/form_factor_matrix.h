@@ -20,9 +20,14 @@ struct FormFactorMatrix {
     std::vector<float> values; // F_ij at i * n + j: of what leaves i, the share that reaches j
     std::vector<float> area;   // m^2
 
-    float* row(std::uint32_t i) { return values.data() + std::size_t(i) * n; }
+    // Shots read columns: number by number they would cost a cache line each. Transposed, column j is where row j was.
+    bool transposed = false;
+
+    float* row(std::uint32_t i) { return values.data() + std::size_t(i) * n; } // not transposed
     const float* row(std::uint32_t i) const { return values.data() + std::size_t(i) * n; }
+    float at(std::uint32_t i, std::uint32_t j) const { return transposed ? row(j)[i] : row(i)[j]; }
 };
+void transpose(FormFactorMatrix& matrix); // in its place
 
 std::uint64_t matrix_bytes(std::uint64_t patches);
 std::string bytes_text(std::uint64_t bytes); // "49.9 MiB"

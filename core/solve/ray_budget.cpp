@@ -22,7 +22,37 @@ double pass_mean(const GatherPass& pass, std::uint32_t receiver, const ScalarRad
     return sum / rays_per_pass;
 }
 
+// Mean over every other ray.
+double half_mean(const GatherPass& pass, std::uint32_t receiver, const ScalarRadiosity& b, int half) {
+    double sum = 0;
+    const std::size_t first = std::size_t(receiver) * rays_per_pass;
+    for (int k = half; k < rays_per_pass; k += 2)
+        sum += b.indirect[pass.ends[first + k]] + b.direct[pass.fine_ends[first + k]];
+    return 2 * sum / rays_per_pass;
+}
+
 } // namespace
+
+std::vector<float> ray_variances(std::span<const GatherPass> passes, const ScalarRadiosity& radiosity) {
+    const std::uint32_t n = static_cast<std::uint32_t>(radiosity.indirect.size());
+    std::vector<float> variance(n, 0);
+    ScalarRadiosity b = radiosity;
+    b.indirect.push_back(0);
+    b.direct.push_back(0);
+    const std::size_t pairs = passes.size() / independent_sets * independent_sets;
+    if (passes.empty()) return variance;
+    tbb::parallel_for(Range(0, n, 256), [&](const Range& range) {
+        for (std::uint32_t i = range.begin(); i < range.end(); ++i) {
+            double sets[independent_sets] = {};
+            if (pairs == 0)
+                for (int half = 0; half < independent_sets; ++half) sets[half] = half_mean(passes[0], i, b, half);
+            for (std::size_t p = 0; p < pairs; ++p)
+                sets[p % independent_sets] += independent_sets * pass_mean(passes[p], i, b) / double(pairs);
+            variance[i] = static_cast<float>((sets[0] - sets[1]) * (sets[0] - sets[1]) / 4);
+        }
+    });
+    return variance;
+}
 
 double ray_error(std::span<const GatherPass> passes, const ScalarRadiosity& radiosity, std::span<const float> direct,
                  std::span<const float> weight) {

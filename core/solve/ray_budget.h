@@ -26,6 +26,10 @@ struct ScalarRadiosity {
 double ray_error(std::span<const GatherPass> passes, const ScalarRadiosity& radiosity, std::span<const float> direct,
                  std::span<const float> weight);
 
+// The variance of each receiver's mean itself, one difference squared. A single pass is taken for two sets, of every
+// other ray: those are not independent, but spread evenly between each other, and so differ more than they err.
+std::vector<float> ray_variances(std::span<const GatherPass> passes, const ScalarRadiosity& radiosity);
+
 // The same for the grey stand-in, which it solves. fine_direct: equal-flux irradiance at all vertices.
 double grey_ray_error(std::span<const GatherPass> passes, std::span<const std::uint32_t> receiver_vertex,
                       std::span<const float> fine_direct, std::span<const float> weight);

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "core/scene/solver_words.h"
+#include "core/solve/choose_solver.h"
 #include "core/solve/solution_steps.h"
 
 namespace lueur {
@@ -56,6 +56,8 @@ void step_solve(State& s, const std::atomic<bool>& cancel, bool one_shot) {
 } // namespace
 
 void start_solver(State& s, bool same_sources) {
+    if (s.solver() != SolverKind::hierarchical) s.status.links = 0;
+    if (s.solver() != SolverKind::gathering) s.indirect_deviation.clear(); // it was another solver's
     switch (s.solver()) {
     case SolverKind::automatic:
     case SolverKind::gathering:
@@ -94,6 +96,7 @@ void fail(State& s, std::string message) {
 Solution::Solution(std::shared_ptr<const Scene> scene)
     : state_(std::make_unique<State>()) {
     state_->scene = std::move(scene);
+    state_->chosen = chosen_solver(*state_->scene);
     plan_channels(*state_);
 }
 Solution::~Solution() = default;
@@ -103,8 +106,11 @@ Solution& Solution::operator=(Solution&&) noexcept = default;
 void Solution::update(std::shared_ptr<const Scene> scene, SolveFrom stale) {
     State& s = *state_;
     const SolveSettings before = s.scene->solve;
+    const SolverKind solver_before = s.solver();
     s.scene = std::move(scene);
+    s.chosen = chosen_solver(*s.scene);
     if (stale == SolveFrom::nothing) return;
+    s.stock.reset();
     s.status.seconds = 0;
     s.status.last_edit_seconds = 0;
     s.status.settled = false;
@@ -112,6 +118,7 @@ void Solution::update(std::shared_ptr<const Scene> scene, SolveFrom stale) {
     if (stale == SolveFrom::mesh) {
         auto fresh = std::make_unique<State>();
         fresh->scene = s.scene;
+        fresh->chosen = s.chosen;
         state_ = std::move(fresh);
         plan_channels(*state_);
         return;
@@ -123,8 +130,8 @@ void Solution::update(std::shared_ptr<const Scene> scene, SolveFrom stale) {
     }
     const SameChannels same = take_channels(s);
     const SolveSettings& now = s.scene->solve;
-    if (chosen_solver(now) != chosen_solver(before) || !same.channels || stale == SolveFrom::black ||
-        stale == SolveFrom::transport || s.phase == SolvePhase::failed)
+    if (s.solver() != solver_before || !same.channels || stale == SolveFrom::black || stale == SolveFrom::transport ||
+        s.phase == SolvePhase::failed)
         s.solving = false; // nothing of the old radiosities can be used
     if (stale == SolveFrom::transport || now.target_error != before.target_error || now.max_rays != before.max_rays) {
         s.passes.clear(); // the number of rays follows from the settings, never from what was there before
@@ -149,6 +156,7 @@ void Solution::update(std::shared_ptr<const Scene> scene, SolveFrom stale) {
 bool Solution::step(const std::atomic<bool>& cancel, bool one_shot) {
     State& s = *state_;
     if (s.phase == SolvePhase::settled || s.phase == SolvePhase::failed) return false;
+    s.stock.reset();
     const auto start = std::chrono::steady_clock::now();
     const std::uint64_t direct_before = s.direct ? s.direct->rays() : 0;
     switch (s.phase) {
@@ -185,7 +193,14 @@ bool Solution::step(const std::atomic<bool>& cancel, bool one_shot) {
         s.edit_open = false;
         s.status.last_edit_seconds = s.status.seconds;
     }
+    if (s.phase == SolvePhase::settled) take_stock();
     return s.phase != SolvePhase::settled && s.phase != SolvePhase::failed;
+}
+
+void Solution::take_stock() {
+    if (!state_->published_mesh) return;
+    state_->stock = compose_field(*state_);
+    state_->status.estimated_error = state_->stock->scene_error;
 }
 
 const SolveStatus& Solution::status() const {
@@ -200,7 +215,11 @@ std::shared_ptr<const Mesh> Solution::mesh() const {
 std::shared_ptr<const World> Solution::world() const {
     return state_->world;
 }
+std::shared_ptr<const HierarchyView> Solution::hierarchy() const {
+    return state_->solver() == SolverKind::hierarchical ? state_->hierarchy_view : nullptr;
+}
 std::shared_ptr<const Field> Solution::field() const {
+    if (state_->stock) return state_->stock;
     return state_->published_mesh ? compose_field(*state_) : nullptr;
 }
 

@@ -101,6 +101,10 @@ void update_error(State& s) {
         for (std::size_t l = 0; l < exitance.size(); ++l) radiosity.direct[v] += static_cast<float>(d[l] * on_paint[l]);
     }
 
+    const std::vector<float> variance = ray_variances(s.passes, radiosity);
+    s.indirect_deviation.resize(s.mesh.coarse_vertex_count);
+    for (std::uint32_t v = 0; v < s.mesh.coarse_vertex_count; ++v)
+        s.indirect_deviation[v] = std::sqrt(variance[s.receivers.of_vertex[v]]);
     const double rays = ray_error(s.passes, radiosity, direct, receiver_areas(s));
     const double unsolved = s.status.unshot_share / std::max(1e-3, 1 - mean_luminous_reflectance(s));
     const double interpolation = s.direct->misfit();

@@ -1,16 +1,219 @@
 // Hierarchical radiosity in a solution: links made and refined, then gathered over, pushed and pulled.
+#include <algorithm>
+#include <cmath>
+
+#include "core/solve/restriction.h"
 #include "core/solve/solution_steps.h"
 
 namespace lueur {
 
+namespace {
+
+constexpr std::uint32_t vertices_for_leaves = 40000; // that leaves may add to the mesh: the window has to draw them
+constexpr double direct_share = 0.5; // of the target error that interpolation of direct light is left with
+
 using State = Solution::State;
 
-void start_hierarchical(State& s, bool) {
-    fail(s, "the hierarchical solver is not in this build");
+HierarchySources sources_of(const State& s) {
+    HierarchySources sources;
+    for (std::uint32_t surface = 0; surface < s.scene->geometry->surfaces.size(); ++surface)
+        sources.surface_material.push_back(s.material_of(surface));
+    sources.material_rho = s.material_rho;
+    sources.luminaire_exitance = s.luminaire_exitance;
+    for (std::uint32_t r = 0; r < s.hierarchy->tree().root_count; ++r) {
+        const ElementNode& root = s.hierarchy->tree().nodes[r];
+        sources.root_luminaire.push_back(s.luminaire_of(root.surface, root.back));
+    }
+    sources.weight = flux_weights(s);
+    return sources;
 }
 
-void make_links(State&, const std::atomic<bool>&) {}
+// Direct light as the fine mesh has it; where a ray down to the surface does not find it, anew.
+void direct_at(const State& s, glm::vec3 position, glm::vec3 normal, float* factors) {
+    const std::size_t emitters = s.direct->emitter_count();
+    std::fill_n(factors, emitters, 0.0f);
+    const float lift = static_cast<float>(0.05 * s.element_size);
+    const Hit hit = s.world->closest({position, -normal, 0, lift});
+    if (hit.element != no_index) {
+        const Located at = locate(s.mesh, hit.element, hit.b1, hit.b2);
+        float sum = 0;
+        for (int k = 0; k < 3; ++k)
+            if (!s.direct->buried()[at.vertices[k]]) sum += at.weights[k];
+        for (int k = 0; k < 3; ++k) {
+            if (s.direct->buried()[at.vertices[k]] || !(sum > 0)) continue;
+            const float* d = s.direct->at_vertex(at.vertices[k]);
+            for (std::size_t l = 0; l < emitters; ++l) factors[l] += at.weights[k] / sum * d[l];
+        }
+        if (sum > 0) return;
+    }
+    std::uint64_t rays = 0;
+    for (std::size_t l = 0; l < emitters; ++l)
+        factors[l] = direct_form_factor(*s.world, s.direct->emitters()[l], position, normal, rays);
+}
 
-void step_hierarchical(State&, const std::atomic<bool>&) {}
+void show_links(State& s) {
+    std::vector<double> luminous;
+    for (const Xyz& w : s.wavelengths->xyz_weight) luminous.push_back(w.y);
+    s.hierarchy_view = std::make_shared<const HierarchyView>(view_hierarchy(*s.hierarchy, luminous));
+}
+
+void refresh_values(State& s) {
+    std::vector<std::uint8_t> inside;
+    s.indirect_irradiance = irradiance_at_vertices(*s.hierarchy, s.leaf_mesh->readings(), s.channels(), inside);
+    fill_buried(s.mesh.elements, std::move(inside), s.indirect_irradiance);
+}
+
+// New vertices show what their parents do until they have their own.
+void take_mesh(State& s) {
+    s.mesh = s.leaf_mesh->mesh();
+    s.direct->follow_mesh();
+    const std::uint32_t before = s.indirect_irradiance.count;
+    if (before > s.mesh.coarse_vertex_count) {
+        ChannelField& h = s.indirect_irradiance;
+        h.count = static_cast<std::uint32_t>(s.mesh.vertices.size());
+        h.values.resize(std::size_t(h.count) * static_cast<std::size_t>(h.stride), 0.0f);
+        for (std::uint32_t v = before; v < h.count; ++v) {
+            const auto& p = s.mesh.vertices[v].parents;
+            for (int c = 0; c < h.stride; ++c) h[v][c] = 0.5f * (h[p[0]][c] + h[p[1]][c]);
+        }
+    }
+    s.passes.clear(); // their rays end at vertices of the mesh before
+    s.pass_open = false;
+    publish_mesh(s);
+}
+
+// New leaves: the mesh is cut as finely, its vertices get their direct light, and read the leaves. One part a step.
+void step_show_leaves(State& s, const std::atomic<bool>& cancel) {
+    using Part = State::ShowLeaves;
+    const ElementTree& tree = s.hierarchy->tree();
+    switch (s.show_leaves) {
+    case Part::no:
+        return;
+    case Part::cut: {
+        const auto most = static_cast<std::uint32_t>(std::max<std::size_t>(
+            s.direct->lit_vertices(), s.mesh.coarse_vertex_count + std::size_t(vertices_for_leaves)));
+        if (!s.leaf_mesh->cut(tree, most, cancel)) return;
+        s.show_leaves = Part::light;
+        if (s.leaf_mesh->mesh().vertices.size() == s.mesh.vertices.size()) return;
+        take_mesh(s);
+        return;
+    }
+    case Part::light:
+        if (s.direct_light_apart() && !s.direct->light_vertices(cancel)) return;
+        s.show_leaves = Part::read;
+        return;
+    case Part::read:
+        if (!s.leaf_mesh->read(tree, cancel)) return;
+        s.show_leaves = Part::values;
+        return;
+    case Part::values:
+        show_links(s);
+        refresh_values(s);
+        s.shown_round = s.hierarchy->rounds();
+        s.show_leaves = Part::no;
+        return;
+    }
+}
+
+void report(State& s) {
+    const Hierarchy& h = *s.hierarchy;
+    s.status.links = h.link_count();
+    s.status.link_elements = h.element_count();
+    s.status.link_levels = h.level_count();
+    s.status.link_rounds = h.rounds();
+    s.status.sweeps = h.sweeps();
+    s.status.residual = h.residual();
+    s.status.error_bound = h.error_bound();
+    const double absorbed = std::max(1e-3, 1 - mean_luminous_reflectance(s));
+    s.status.unshot_share = std::min(1.0, h.residual() / absorbed);
+    const double direct = s.direct_light_apart() ? s.direct->misfit() : 0;
+    s.status.estimated_error = std::min(1.0, std::hypot(h.estimated_error(), direct));
+    s.status.progress = h.progress();
+}
+
+// The links are made and solved over. What remains is what the vertices get of them themselves.
+void step_final_gather(State& s, const std::atomic<bool>& cancel) {
+    constexpr std::size_t most_factors = 40'000'000; // 320 MB
+    if (!s.direct_light_apart()) return settle(s);
+    if (!s.final_gather || s.final_round != s.hierarchy->rounds()) {
+        s.vertex_origins = ray_origins(s.mesh, s.world->epsilon());
+        s.final_gather = std::make_unique<FinalGather>(*s.hierarchy, s.mesh, s.vertex_origins, s.leaf_mesh->readings(),
+                                                       s.all_buried());
+        s.final_round = s.hierarchy->rounds();
+        s.final_done = s.final_gather->factors() > most_factors;
+        if (s.final_done) s.final_gather.reset();
+    }
+    if (!s.final_done) {
+        const std::uint64_t rays = s.final_gather->rays();
+        s.final_done = s.final_gather->trace(*s.world, *s.hierarchy, cancel);
+        s.status.rays += s.final_gather->rays() - rays;
+        s.status.progress = s.final_gather->progress();
+        if (!s.final_done) return;
+    }
+    if (s.final_gather) {
+        s.indirect_irradiance = s.final_gather->irradiance(*s.hierarchy, s.channels());
+        fill_buried(s.mesh.elements, s.all_buried(), s.indirect_irradiance);
+    }
+    settle(s);
+}
+
+} // namespace
+
+void start_hierarchical(State& s, bool same_sources) {
+    if (s.direct_light_apart() && !s.refined) {
+        s.phase = SolvePhase::refine;
+        return;
+    }
+    const SolveSettings& solve = s.scene->solve;
+    if (!s.hierarchy || !s.solving) {
+        HierarchySettings settings;
+        settings.oracle = solve.oracle;
+        settings.tolerance = solve.link_tolerance;
+        settings.target_error = s.direct_light_apart() ? direct_share * solve.target_error : solve.target_error;
+        settings.smallest_area = static_cast<float>(s.element_size * s.element_size / 16);
+        DirectAt direct;
+        if (s.direct_light_apart())
+            direct = [&s](glm::vec3 p, glm::vec3 n, float* factors) { direct_at(s, p, n, factors); };
+        s.hierarchy = std::make_unique<Hierarchy>(*s.scene, *s.world, settings, std::move(direct));
+        if (!s.hierarchy->failure().empty()) return fail(s, s.hierarchy->failure());
+        s.final_gather.reset();
+        s.leaf_mesh.reset();
+        s.shown_round = 0;
+        s.show_leaves = State::ShowLeaves::no;
+        s.indirect_irradiance = ChannelField(s.mesh.coarse_vertex_count, s.channels());
+        same_sources = false;
+    }
+    if (!same_sources) s.hierarchy->set_sources(sources_of(s));
+    s.solving = true;
+    s.status.sweeps = 0;
+    s.phase = SolvePhase::solve;
+}
+
+void make_links(State& s, const std::atomic<bool>&) {
+    s.phase = SolvePhase::solve; // links are made and solved over in turn
+}
+
+void step_hierarchical(State& s, const std::atomic<bool>& cancel) {
+    s.status.stage = SolveStage::solving;
+    Hierarchy& h = *s.hierarchy;
+    if (s.show_leaves != State::ShowLeaves::no) return step_show_leaves(s, cancel);
+    if (h.settled()) return step_final_gather(s, cancel);
+    const std::uint64_t rays = h.rays();
+    const std::uint32_t sweeps = h.sweeps();
+    h.step(cancel);
+    if (h.sweeps() > 0 && sweeps == 0 && h.absorbs_nothing()) return fail(s, no_finite_solution);
+    s.status.rays += h.rays() - rays;
+    if (!h.failure().empty()) return fail(s, h.failure());
+    report(s);
+    if (h.sweeps() == sweeps) return;
+    if (!h.refining() && h.rounds() != s.shown_round) {
+        if (!s.leaf_mesh) s.leaf_mesh = std::make_unique<LeafMesh>(s.mesh);
+        s.leaf_mesh->begin();
+        s.show_leaves = State::ShowLeaves::cut;
+    } else if (h.settled()) {
+        show_links(s); // other light on the same links
+        refresh_values(s);
+    }
+}
 
 } // namespace lueur

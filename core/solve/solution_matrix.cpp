@@ -128,6 +128,7 @@ void start_matrix(State& s, bool same_sources) {
         return;
     }
     s.phase = SolvePhase::solve;
+    if (p.matrix.transposed != (s.solver() == SolverKind::overshooting)) transpose(p.matrix);
     if (s.solving && same_sources) return;
     if (!s.solving) p.system = MatrixSystem(p.matrix, s.channels(), flux_weights(s));
     s.status.sweeps = s.status.shots = 0;

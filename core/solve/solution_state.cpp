@@ -1,8 +1,16 @@
 // What a solution shows of the solver at work.
 #include "core/scene/solver_words.h"
 #include "core/solve/solution_steps.h"
+#include "core/solve/traced_field.h"
 
 namespace lueur {
+
+Solution::State::State() = default;
+Solution::State::~State() = default;
+
+bool Solution::State::is_traced() const {
+    return solver() == SolverKind::reference && solving && traced && traced->passes > 0;
+}
 
 std::vector<std::uint8_t> Solution::State::all_buried() const {
     std::vector<std::uint8_t> all = direct->buried();
@@ -23,7 +31,7 @@ std::optional<std::size_t> Solution::State::luminaire_of(std::uint32_t surface, 
 }
 
 SolverKind Solution::State::solver() const {
-    return chosen_solver(scene->solve);
+    return chosen;
 }
 
 bool Solution::State::luminaire_is_lit(std::size_t luminaire) const {
@@ -36,11 +44,16 @@ bool Solution::State::luminaire_is_lit(std::size_t luminaire) const {
         return !solving; // then it is in the patches' irradiance
     case SolverKind::automatic:
     case SolverKind::gathering:
-    case SolverKind::hierarchical:
     case SolverKind::reference:
         return true;
+    case SolverKind::hierarchical:
+        return direct_light_apart();
     }
     return true;
+}
+
+bool Solution::State::direct_light_apart() const {
+    return solver() != SolverKind::hierarchical || scene->solve.oracle == RefinementOracle::error;
 }
 
 const ChannelField& Solution::State::indirect() const {

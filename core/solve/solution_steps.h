@@ -38,6 +38,7 @@ double mean_luminous_reflectance(const Solution::State& s);       // over the ar
 std::vector<float> flux_weights(const Solution::State& s);
 
 // Transport that all share: solution_transport.cpp.
+void publish_mesh(Solution::State& s); // the mesh has grown
 void step_mesh(Solution::State& s);
 void step_sketch(Solution::State& s, const std::atomic<bool>& cancel);
 void step_light(Solution::State& s, const std::atomic<bool>& cancel);

@@ -7,17 +7,18 @@ namespace lueur {
 namespace {
 
 constexpr std::uint32_t fine_vertices = 20000; // that direct light may add: the window has to draw them
+constexpr std::uint32_t probe_count = 400;     // that tell its error
 constexpr double receiver_cell = 0.3;          // of the coarse element size
 
 using State = Solution::State;
+
+} // namespace
 
 void publish_mesh(State& s) {
     s.published_mesh = std::make_shared<const Mesh>(s.mesh);
     s.status.vertices = static_cast<std::uint32_t>(s.mesh.vertices.size());
     s.status.elements = static_cast<std::uint32_t>(s.mesh.elements.size());
 }
-
-} // namespace
 
 void step_mesh(State& s) {
     s.status.stage = SolveStage::meshing;
@@ -65,6 +66,12 @@ void step_refine(State& s, const std::atomic<bool>& cancel) {
     const bool done = s.direct->refine(cancel);
     if (s.mesh.vertices.size() != before) publish_mesh(s);
     if (!done) return;
+    const std::vector<std::uint8_t> buried = s.all_buried();
+    if (s.probes.points.empty())
+        place_probes(*s.world, s.mesh, *s.direct, buried, probe_count, s.scene->solve.seed, s.probes);
+    if (!trace_probes(*s.world, s.mesh, *s.direct, buried, s.scene->solve.seed, cancel, s.probes)) return;
+    s.status.rays +=
+        s.probes.points.size() * (ErrorProbes::rays + ErrorProbes::shadow_rays * s.direct->emitter_count());
     s.refined = true;
     // The first picture's rays ended at vertices of the mesh before.
     s.passes.clear();

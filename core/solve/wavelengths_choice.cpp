@@ -42,6 +42,7 @@ WavelengthsChoice choose_wavelengths(std::shared_ptr<const Scene> scene, const W
         choice.words = fmt::format("{} channels", choice.wavelengths->size());
         break;
     }
+    choice.illuminance_error = wavelength_error(*choice.wavelengths, choice.content);
     return choice;
 }
 

@@ -5,14 +5,16 @@
 #include <string>
 
 #include "core/scene/scene.h"
+#include "core/solve/wavelength_error.h"
 #include "core/spectrum/spectral_content.h"
 
 namespace lueur {
 
 struct WavelengthsChoice {
     std::shared_ptr<const Wavelengths> wavelengths;
-    double predicted_error = -1; // CIEDE2000 at worst, of auto and folded wavelengths; below 0: not predicted
-    std::string words;           // what the channels are, in a line
+    double predicted_error = -1;       // CIEDE2000 at worst, of auto and folded wavelengths; below 0: not predicted
+    WavelengthError illuminance_error; // what they make of illuminance
+    std::string words;                 // what the channels are, in a line
     std::shared_ptr<const Scene> scene;
     SpectralContent content; // of the scene
 };

@@ -41,9 +41,10 @@ std::vector<Emitter> make_emitters(const Scene& scene);
 // A point of the emitter, uniform by area, for u in the unit square.
 EmitterPoint emitter_point(const Emitter& emitter, glm::vec2 u);
 
-// D for one receiver. `origin` is already off its surface.
+// D for one receiver. `origin` is already off its surface. deviation: the standard deviation of D that the stratified
+// points leave (0 where the formula is exact and the probes agree).
 float direct_form_factor(const World& world, const Emitter& emitter, glm::vec3 origin, glm::vec3 normal,
-                         std::uint64_t& rays);
+                         std::uint64_t& rays, float* deviation = nullptr);
 
 // A first guess with one shadow ray, to a probe chosen by `choice`: unbiased far away, rough near the lamp. For a
 // picture at once.

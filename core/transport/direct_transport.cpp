@@ -19,13 +19,14 @@ DirectTransport::DirectTransport(const World& world, Mesh& mesh, std::vector<Emi
     for (const Emitter& e : emitters_) weight_.push_back(e.area > 0 ? 1 / e.area : 0);
     origins_ = ray_origins(mesh_, world_.epsilon());
     factors_.assign(mesh_.vertices.size() * emitters_.size(), 0);
+    deviations_ = factors_;
     buried_.assign(mesh_.vertices.size(), 0);
 }
 
-void DirectTransport::light(glm::vec3 origin, glm::vec3 normal, float* factors) const {
+void DirectTransport::light(glm::vec3 origin, glm::vec3 normal, float* factors, float* deviations) const {
     std::uint64_t rays = 0;
     for (std::size_t l = 0; l < emitters_.size(); ++l)
-        factors[l] = direct_form_factor(world_, emitters_[l], origin, normal, rays);
+        factors[l] = direct_form_factor(world_, emitters_[l], origin, normal, rays, &deviations[l]);
     rays_.fetch_add(rays, std::memory_order_relaxed);
 }
 
@@ -58,8 +59,10 @@ bool DirectTransport::light_vertices(const std::atomic<bool>& cancel) {
     const std::uint32_t count = static_cast<std::uint32_t>(mesh_.vertices.size());
     const bool done = run_slice(vertex_cursor_, count, 32, cancel, [&](std::uint32_t first, std::uint32_t last) {
         for (std::uint32_t v = first; v < last; ++v) {
-            float* factors = factors_.data() + std::size_t(v) * emitters_.size();
-            light(origins_[v], mesh_.vertices[v].normal, factors);
+            const std::size_t row = std::size_t(v) * emitters_.size();
+            float* factors = factors_.data() + row;
+            light(origins_[v], mesh_.vertices[v].normal, factors, deviations_.data() + row);
+            buried_[v] = 0;
             if (equal_flux_light(factors) == 0) find_buried(world_, mesh_, origins_, v, v + 1, buried_);
         }
     });
@@ -67,6 +70,7 @@ bool DirectTransport::light_vertices(const std::atomic<bool>& cancel) {
         double sum = 0;
         for (std::uint32_t v = 0; v < count; ++v) sum += equal_flux_light(at_vertex(v));
         floor_ = static_cast<float>(0.1 * sum / count); // darker than this, a relative error is not seen
+        spread_deviations();
     }
     return done;
 }
@@ -82,8 +86,8 @@ void DirectTransport::collect_edges() {
         if (mesh_.nodes[next_node_].children == no_index) open_.push_back(next_node_);
     for (const std::uint32_t n : open_) {
         const glm::uvec3 v = mesh_.nodes[n].vertices;
-        const int longest = bisection_.longest_edge(n);
-        if (bisection_.edge_length(v[longest], v[(longest + 1) % 3]) < smallest2) continue;
+        const int longest = bisection_->longest_edge(n);
+        if (bisection_->edge_length(v[longest], v[(longest + 1) % 3]) < smallest2) continue;
         const glm::vec3 centre =
             (mesh_.vertices[v.x].position + mesh_.vertices[v.y].position + mesh_.vertices[v.z].position) / 3.0f;
         for (int k = 0; k < 3; ++k) {
@@ -97,6 +101,7 @@ void DirectTransport::collect_edges() {
         }
     }
     edge_factors_.assign(edges_.size() * emitters_.size(), 0);
+    edge_deviations_ = edge_factors_;
 }
 
 void DirectTransport::split_bent() {
@@ -124,19 +129,20 @@ void DirectTransport::split_bent() {
             const auto slot = edge_slot_.find(Bisection::edge_key(v[k], v[(k + 1) % 3]));
             if (slot != edge_slot_.end()) worst = std::max(worst, bent[slot->second]);
         }
-        const int longest = bisection_.longest_edge(n);
-        if (worst > 0) wanted.emplace_back(worst * bisection_.edge_length(v[longest], v[(longest + 1) % 3]), n);
+        const int longest = bisection_->longest_edge(n);
+        if (worst > 0) wanted.emplace_back(worst * bisection_->edge_length(v[longest], v[(longest + 1) % 3]), n);
     }
     std::sort(wanted.begin(), wanted.end(), [](const auto& a, const auto& b) {
         return a.first != b.first ? a.first > b.first : a.second < b.second;
     });
     for (const auto& [misfit, n] : wanted) {
         if (mesh_.vertices.size() >= params_.most_vertices) break;
-        if (mesh_.nodes[n].children == no_index) bisection_.split(n);
+        if (mesh_.nodes[n].children == no_index) bisection_->split(n);
     }
     // New vertices at middles that were looked at are lit already; the others (made for conformity) are lit now.
     const std::uint32_t after = static_cast<std::uint32_t>(mesh_.vertices.size());
     factors_.resize(std::size_t(after) * emitters_.size(), 0);
+    deviations_.resize(factors_.size(), 0);
     buried_.resize(after, 0);
     list_leaves(mesh_);
     origins_ = ray_origins(mesh_, world_.epsilon());
@@ -145,19 +151,69 @@ void DirectTransport::split_bent() {
                           for (std::uint32_t v = range.begin(); v < range.end(); ++v) {
                               const auto& parents = mesh_.vertices[v].parents;
                               const auto slot = edge_slot_.find(Bisection::edge_key(parents[0], parents[1]));
-                              float* factors = factors_.data() + std::size_t(v) * emitters_.size();
-                              if (slot != edge_slot_.end())
-                                  std::copy_n(edge_factors_.data() + std::size_t(slot->second) * emitters_.size(),
-                                              emitters_.size(), factors);
-                              else
-                                  light(origins_[v], mesh_.vertices[v].normal, factors);
+                              const std::size_t row = std::size_t(v) * emitters_.size();
+                              float *factors = factors_.data() + row, *deviations = deviations_.data() + row;
+                              if (slot != edge_slot_.end()) {
+                                  const std::size_t edge = std::size_t(slot->second) * emitters_.size();
+                                  std::copy_n(edge_factors_.data() + edge, emitters_.size(), factors);
+                                  std::copy_n(edge_deviations_.data() + edge, emitters_.size(), deviations);
+                              } else
+                                  light(origins_[v], mesh_.vertices[v].normal, factors, deviations);
                               if (equal_flux_light(factors) == 0)
                                   find_buried(world_, mesh_, origins_, v, v + 1, buried_);
                           }
                       });
     vertex_cursor_ = after;
     refined_ = after == before || after >= params_.most_vertices;
-    if (refined_) misfit_ = misfit_count_ > 0 ? std::sqrt(misfit_sum_ / double(misfit_count_)) : 0;
+    if (refined_) {
+        misfit_ = misfit_count_ > 0 ? std::sqrt(misfit_sum_ / double(misfit_count_)) : 0;
+        spread_deviations();
+    }
+}
+
+// Beside a penumbra six probes that agree may still be wrong by what lies between them: a seventh of the luminaire.
+void DirectTransport::spread_deviations() {
+    constexpr float share_between_probes = 0.07f;
+    const std::size_t emitters = emitters_.size();
+    std::vector<float> beside(deviations_.size(), 0);
+    for (const glm::uvec3& e : mesh_.elements)
+        for (std::size_t l = 0; l < emitters; ++l) {
+            float brightest = 0;
+            bool mixed = false, lit = false, dark = false;
+            for (int k = 0; k < 3; ++k) {
+                const std::size_t at = e[k] * emitters + l;
+                brightest = std::max(brightest, factors_[at]);
+                mixed = mixed || deviations_[at] > 0.01f * factors_[at];
+                lit = lit || factors_[at] > 0;
+                dark = dark || factors_[at] == 0;
+            }
+            if (mixed || (lit && dark))
+                for (int k = 0; k < 3; ++k)
+                    beside[e[k] * emitters + l] =
+                        std::max(beside[e[k] * emitters + l], share_between_probes * brightest / 3);
+        }
+    for (std::size_t i = 0; i < beside.size(); ++i) deviations_[i] = std::max(deviations_[i], beside[i]);
+}
+
+void DirectTransport::follow_mesh() {
+    const std::uint32_t before = static_cast<std::uint32_t>(buried_.size());
+    const std::uint32_t count = static_cast<std::uint32_t>(mesh_.vertices.size());
+    factors_.resize(std::size_t(count) * emitters_.size(), 0);
+    deviations_.resize(factors_.size(), 0);
+    buried_.resize(count, 0);
+    for (std::uint32_t v = before; v < count; ++v) {
+        const auto& p = mesh_.vertices[v].parents;
+        buried_[v] = buried_[p[0]] && buried_[p[1]];
+        for (std::size_t l = 0; l < emitters_.size(); ++l) {
+            const std::size_t at = v * emitters_.size() + l, a = p[0] * emitters_.size() + l,
+                              b = p[1] * emitters_.size() + l;
+            factors_[at] = 0.5f * (factors_[a] + factors_[b]);
+            deviations_[at] = std::max(deviations_[a], deviations_[b]);
+        }
+    }
+    origins_ = ray_origins(mesh_, world_.epsilon());
+    if (!refined_) bisection_.emplace(mesh_); // refine() goes on from here
+    level_begun_ = false;
 }
 
 bool DirectTransport::refine(const std::atomic<bool>& cancel) {
@@ -177,7 +233,8 @@ bool DirectTransport::refine(const std::atomic<bool>& cancel) {
                                         const glm::vec3 normal =
                                             glm::dot(sum, sum) > 1e-12f ? glm::normalize(sum) : a.normal;
                                         light(ray_origin(middle, normal, edge.inward / float(edge.elements), epsilon),
-                                              normal, edge_factors_.data() + std::size_t(e) * emitters_.size());
+                                              normal, edge_factors_.data() + std::size_t(e) * emitters_.size(),
+                                              edge_deviations_.data() + std::size_t(e) * emitters_.size());
                                     }
                                 });
     if (!done) return false;

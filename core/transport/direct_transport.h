@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -33,10 +34,20 @@ public:
     bool light_vertices(const std::atomic<bool>& cancel); // D at the vertices there are
     bool refine(const std::atomic<bool>& cancel);         // then split, level by level, and light the new ones
 
+    // The mesh was cut by someone else: its new vertices have what their parents
+    // have, until light_vertices has been called to its end.
+    void follow_mesh();
+
+    std::size_t lit_vertices() const { return buried_.size(); } // that it knows of
     std::size_t emitter_count() const { return emitters_.size(); }
     const std::vector<Emitter>& emitters() const { return emitters_; }
     // D of each emitter at a vertex: irradiance for unit exitance.
     const float* at_vertex(std::uint32_t v) const { return factors_.data() + std::size_t(v) * emitters_.size(); }
+    // Standard deviation of D at a vertex, one an emitter: of the stratified points in a penumbra; next to one, of the
+    // few probes that found a vertex wholly lit or wholly dark.
+    const float* deviation_at_vertex(std::uint32_t v) const {
+        return deviations_.data() + std::size_t(v) * emitters_.size();
+    }
     const std::vector<std::uint8_t>& buried() const {
         return buried_;
     }                                         // one a vertex; set for dark vertices inside solids
@@ -50,7 +61,8 @@ private:
         glm::vec3 inward{0};
         int elements = 0;
     };
-    void light(glm::vec3 origin, glm::vec3 normal, float* factors) const;
+    void light(glm::vec3 origin, glm::vec3 normal, float* factors, float* deviations) const;
+    void spread_deviations();
     float equal_flux_light(const float* factors) const;
     void collect_edges();
     void split_bent();
@@ -59,15 +71,15 @@ private:
     Mesh& mesh_;
     std::vector<Emitter> emitters_;
     DirectParams params_;
-    Bisection bisection_;
-    std::vector<float> weight_;  // exitance of each emitter at equal flux
-    std::vector<float> factors_; // vertices * emitters
+    std::optional<Bisection> bisection_;
+    std::vector<float> weight_;               // exitance of each emitter at equal flux
+    std::vector<float> factors_, deviations_; // vertices * emitters
     std::vector<std::uint8_t> buried_;
     std::vector<glm::vec3> origins_;
     std::uint32_t sketch_cursor_ = 0, vertex_cursor_ = 0;
 
     std::vector<EdgeMiddle> edges_; // of this level, and their D
-    std::vector<float> edge_factors_;
+    std::vector<float> edge_factors_, edge_deviations_;
     std::unordered_map<std::uint64_t, std::uint32_t> edge_slot_;
     std::unordered_map<std::uint64_t, std::uint8_t> straight_; // edges of earlier levels whose middle was right
     std::vector<std::uint32_t> open_;                          // leaves still to be looked at

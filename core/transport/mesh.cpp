@@ -144,6 +144,7 @@ void make_leaves_coarse(Mesh& mesh, float patch_size) {
             }
             mesh.coarse_patch.push_back(patch_of_root[root[n]]);
             surface.push_back(mesh.coarse_surface[node.coarse]);
+            mesh.coarse_triangle.push_back(start);
             leaves.push_back({node.vertices, static_cast<std::uint32_t>(leaves.size())});
         }
     }
@@ -176,6 +177,7 @@ void add_back_sides(const Scene& scene, Mesh& mesh) {
         mesh.nodes.push_back({{back_of(v.x), back_of(v.z), back_of(v.y)}, back});
         mesh.coarse_surface.push_back(mesh.coarse_surface[e]);
         mesh.coarse_back.push_back(1);
+        mesh.coarse_triangle.push_back(mesh.coarse_triangle[e]);
         mesh.coarse_twin[e] = back;
         mesh.coarse_twin.push_back(e);
         const std::uint32_t patch = mesh.coarse_patch[e];

@@ -47,6 +47,7 @@ struct Mesh {
     std::vector<std::uint32_t>
         coarse_twin;                // the element of the other side, vertices 2 and 3 swapped; no_index: one-sided
     std::vector<float> coarse_area; // m^2
+    std::vector<std::uint32_t> coarse_triangle; // which of the scene's triangles (degenerate ones not counted) it is of
 
     // Patches, which shoot as one: neighbouring coarse elements cut from the same triangle (elements receive, larger
     // patches shoot: Cohen, Greenberg, Immel & Brock 1986).

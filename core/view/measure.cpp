@@ -6,10 +6,10 @@
 
 #include <tbb/parallel_for.h>
 
+#include "core/solve/path_tracer.h"
 #include "core/solve/solution_state.h"
 #include "core/transport/direct_light.h"
 #include "core/transport/sampling.h"
-#include "core/view/path_tracer.h"
 
 namespace lueur {
 
@@ -26,11 +26,8 @@ Irradiance from_channels(const Wavelengths& wavelengths, std::vector<double> cha
     return result;
 }
 
-void set_standard_error(Irradiance& result, const std::array<double, batches>& luminous) {
-    double mean = 0, square = 0;
-    for (const double y : luminous) mean += y / batches, square += y * y / batches;
-    const double variance = std::max(0.0, square - mean * mean) / (batches - 1);
-    result.standard_error_percent = mean > 0 ? 100 * std::sqrt(variance) / mean : 0;
+void set_standard_error(Irradiance& result, double standard_error) {
+    result.standard_error_percent = result.illuminance_lx > 0 ? 100 * standard_error / result.illuminance_lx : 0;
 }
 
 Irradiance gather(const Solution::State& s, glm::vec3 origin, glm::vec3 normal, int rays, std::uint32_t seed) {
@@ -60,11 +57,12 @@ Irradiance gather(const Solution::State& s, glm::vec3 origin, glm::vec3 normal, 
         }
     }
     Irradiance result = from_channels(*s.wavelengths, std::move(total));
-    set_standard_error(result, luminous);
+    set_standard_error(result, standard_error_of_batches(luminous));
     return result;
 }
 
-Irradiance read_field(const Solution::State& s, glm::vec3 position, glm::vec3 normal) {
+// Without a field: no standard error.
+Irradiance read_field(const Solution::State& s, const Field* field, glm::vec3 position, glm::vec3 normal) {
     // The surface within a thousandth of the scene's size below or above the point.
     const float reach = 500 * s.world->epsilon();
     const Hit hit = s.world->closest({position + reach * normal, -normal, 0, 2 * reach});
@@ -76,16 +74,23 @@ Irradiance read_field(const Solution::State& s, glm::vec3 position, glm::vec3 no
         return result;
     }
     result = from_channels(*s.wavelengths, irradiance_at(s, hit.element, hit.b1, hit.b2));
-    result.standard_error_percent = 100 * s.status.estimated_error;
+    if (!field) return result;
+    const Located at_point = locate(s.mesh, hit.element, hit.b1, hit.b2);
+    double variance = 0;
+    for (int k = 0; k < 3; ++k) {
+        const double at_vertex = field->error[at_point.vertices[k]],
+                     between = field->interpolation_error[at_point.vertices[k]];
+        variance += double(at_point.weights[k]) * (at_vertex * at_vertex + between * between);
+    }
+    set_standard_error(result, std::sqrt(variance));
     return result;
 }
 
-Irradiance reference(const Solution::State& s, glm::vec3 origin, glm::vec3 normal, int paths, std::uint32_t seed,
-                     const std::atomic<bool>& cancel) {
-    std::array<double, batches> luminous{};
-    Irradiance result =
-        from_channels(*s.wavelengths, trace_irradiance(s, origin, normal, paths, seed, cancel, luminous));
-    set_standard_error(result, luminous);
+Irradiance reference(const Solution::State& s, const PathLights& lights, glm::vec3 origin, glm::vec3 normal, int paths,
+                     std::uint32_t seed, const std::atomic<bool>& cancel) {
+    PathEstimate traced = trace_irradiance(s, lights, origin, normal, paths, seed, cancel);
+    Irradiance result = from_channels(*s.wavelengths, std::move(traced.channels));
+    set_standard_error(result, traced.standard_error);
     return result;
 }
 
@@ -97,6 +102,8 @@ std::vector<Irradiance> measure_points(const Solution& solution, std::span<const
     const Solution::State& s = solution.state();
     std::vector<Irradiance> results(points.size());
     if (!s.world) return results;
+    const PathLights lights = params.at == MeasureAt::reference ? make_path_lights(s) : PathLights{};
+    const auto field = params.at == MeasureAt::field && params.standard_errors ? solution.field() : nullptr;
     const std::size_t block = params.at == MeasureAt::reference ? 16 : 128;
     for (std::size_t first = 0; first < points.size(); first += block) {
         if (cancel.load(std::memory_order_relaxed)) return {};
@@ -109,10 +116,10 @@ std::vector<Irradiance> measure_points(const Solution& solution, std::span<const
                 results[i] = gather(s, origin, normal, params.rays, seed);
                 break;
             case MeasureAt::field:
-                results[i] = read_field(s, position, normal);
+                results[i] = read_field(s, field.get(), position, normal);
                 break;
             case MeasureAt::reference:
-                results[i] = reference(s, origin, normal, params.rays, seed, cancel);
+                results[i] = reference(s, lights, origin, normal, params.rays, seed, cancel);
                 break;
             }
         });

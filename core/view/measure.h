@@ -18,7 +18,7 @@ struct Irradiance {
     std::vector<double> channels; // W m^-2 nm^-1, or the scene's emission unit in rgb
     double illuminance_lx = 0;
     double irradiance_w_m2 = 0;
-    double standard_error_percent = 0; // of the illuminance, from independent ray sets
+    double standard_error_percent = 0; // of the illuminance: from independent ray sets; of the field its estimate
 };
 
 enum class MeasureAt {
@@ -31,6 +31,7 @@ struct MeasureParams {
     MeasureAt at = MeasureAt::gather;
     int rays = 1024; // hemisphere rays (gather) or paths (reference) a point
     std::uint32_t seed = 1;
+    bool standard_errors = true; // false: those of the field, which cost a look at all of it, are left 0
 };
 
 // `field`: a point further than 1 mm * scene scale from any surface, or facing away from it, gives NaN.

@@ -17,7 +17,8 @@ glm::vec3 texel(const TextureImage& image, int x, int y) {
     return image.rgb[std::size_t(wrap(y, image.height)) * image.width + wrap(x, image.width)];
 }
 
-// Bilinear, repeating, as the window's sampler.
+} // namespace
+
 glm::vec3 sample_texture(const TextureImage& image, glm::vec2 uv) {
     const float x = uv.x * float(image.width) - 0.5f, y = uv.y * float(image.height) - 0.5f;
     const float fx = std::floor(x), fy = std::floor(y), tx = x - fx, ty = y - fy;
@@ -27,7 +28,14 @@ glm::vec3 sample_texture(const TextureImage& image, glm::vec2 uv) {
     return glm::mix(top, bottom, ty);
 }
 
-} // namespace
+Hit seen_hit(const World& world, Ray ray) {
+    Hit hit = world.closest(ray);
+    for (int k = 0; k < most_back_faces && hit.back_face; ++k) {
+        ray.t_min = hit.t + std::max(world.epsilon(), 1e-6f * hit.t);
+        hit = world.closest(ray);
+    }
+    return hit;
+}
 
 std::vector<double> irradiance_channels(const Field& field, const FieldPoint& point) {
     if (field.irradiance.count == 0 || !field.wavelengths) return {};
@@ -38,14 +46,9 @@ std::vector<double> irradiance_channels(const Field& field, const FieldPoint& po
     return channels;
 }
 
-std::optional<FieldPoint> field_along_ray(const FieldView& view, const Ray& original) {
+std::optional<FieldPoint> field_along_ray(const FieldView& view, const Ray& ray) {
     if (!view.world || !view.mesh || !view.field) return std::nullopt;
-    Ray ray = original;
-    Hit hit = view.world->closest(ray);
-    for (int k = 0; k < most_back_faces && hit.back_face; ++k) {
-        ray.t_min = hit.t + std::max(view.world->epsilon(), 1e-6f * hit.t);
-        hit = view.world->closest(ray);
-    }
+    const Hit hit = seen_hit(*view.world, ray);
     if (!hit.any() || hit.back_face) return std::nullopt;
     const Mesh& mesh = *view.mesh;
     const Located at_point = locate(mesh, hit.element, hit.b1, hit.b2);
@@ -72,6 +75,10 @@ std::optional<FieldPoint> field_along_ray(const FieldView& view, const Ray& orig
         emitted += double(w) * glm::dvec3(shades.emitted_xyz[v]);
         if (textured) by_texel += double(w) * glm::dmat3(shades.reflected_by_texel[v]);
         point.unshot += w * view.field->unshot[v];
+        if (!view.field->error.empty()) {
+            point.error += w * std::hypot(view.field->error[v], view.field->interpolation_error[v]);
+            point.relative_error += w * view.field->relative_error[v];
+        }
         if (!view.field->colour_difference.empty()) point.colour_difference += w * view.field->colour_difference[v];
     }
     if (glm::dot(point.normal, point.normal) > 0) point.normal = glm::normalize(point.normal);
@@ -108,6 +115,9 @@ RadianceImage render_picture(const FieldView& view, const Camera& camera, const 
                     break;
                 case PictureQuantity::colour_difference:
                     sum += double(point.colour_difference) * grey;
+                    break;
+                case PictureQuantity::error:
+                    sum += double(point.relative_error) * grey;
                     break;
                 }
             });

@@ -32,6 +32,8 @@ struct FieldPoint { // the field where a ray meets the scene
     Xyz emitted;                    // the part of the radiance that the surface emits itself
     std::optional<glm::vec3> texel; // linear RGB, of a textured surface
     float unshot;
+    float error;               // lx, one standard deviation of the illuminance
+    float relative_error;      // in per cent of it
     float colour_difference;   // CIEDE2000 of the two approaches, of the mean texel; 0 where they are not compared
     std::uint32_t vertices[3]; // of the mesh, and what each counts: irradiance in channels is read there
     float weights[3];
@@ -42,13 +44,20 @@ std::vector<double> irradiance_channels(const Field& field, const FieldPoint& po
 
 std::optional<FieldPoint> field_along_ray(const FieldView& view, const Ray& ray);
 
+// The first thing a ray from the eye meets, looking through surfaces from behind, as the window does; a back face or
+// nothing where there is none.
+Hit seen_hit(const World& world, Ray ray);
+
+// Linear RGB, bilinear and repeating, as the window's sampler.
+glm::vec3 sample_texture(const TextureImage& image, glm::vec2 uv);
+
 struct PictureParams {
     int width = 1280, height = 800;
     int samples_per_axis = 3; // of a pixel: 3 -> 9 rays; at least 1
 };
 
 // All but colour: grey pictures, Y being cd m^-2, lx, or the CIEDE2000 of the field's trichromatic approach.
-enum class PictureQuantity { colour, luminance, illuminance, colour_difference };
+enum class PictureQuantity { colour, luminance, illuminance, colour_difference, error };
 
 // Progress goes from 0 to 1. Cancelled: an empty picture.
 RadianceImage render_picture(const FieldView& view, const Camera& camera, const PictureParams& params,

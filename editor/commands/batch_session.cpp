@@ -90,17 +90,20 @@ std::expected<void, int> BatchSession::solve(Solution& solution, bool geometry_o
     case SolveEnd::out_of_time:
         break;
     }
+    if (solved_.end == SolveEnd::out_of_time && !geometry_only) solution.take_stock();
     if (!status.message.empty()) warning(status.message);
     if (params_.solve.target_error && solved_.end == SolveEnd::settled &&
         status.estimated_error > *params_.solve.target_error)
-        warning(fmt::format("the {} stays above the {:.2g} % asked for: max_rays of the scene is reached",
-                            error_text(status), 100 * *params_.solve.target_error));
+        warning(
+            fmt::format("the {} stays above the {:.2g} % asked for: the rays or the mesh of the scene allow no less",
+                        error_text(status), 100 * *params_.solve.target_error));
     return {};
 }
 
-int BatchSession::finish(const Solution& solution) {
+int BatchSession::finish(const Solution& solution, const SolveStatus& status) {
     if (params_.report.empty()) return exit_done;
-    const auto written = write_text(params_.report, report_json(command_, params_, solution, solved_, stage_seconds_));
+    const auto written =
+        write_text(params_.report, report_json(command_, params_, solution, status, solved_, stage_seconds_));
     if (!written) return failed(written.error());
     return exit_done;
 }

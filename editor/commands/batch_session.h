@@ -28,7 +28,8 @@ public:
     // The exit status when it is not done.
     std::expected<void, int> solve(Solution& solution, bool geometry_only);
     // The last thing a command does: the report, when one is asked for.
-    int finish(const Solution& solution);
+    int finish(const Solution& solution) { return finish(solution, solution.status()); }
+    int finish(const Solution& solution, const SolveStatus& status); // of what was made of it
 
     void timed(const std::string& stage, const std::function<void()>& work); // adds to the stage times of the report
     void error(const std::string& line);                                     // as it is: `FILE:LINE:COLUMN: ...`

@@ -5,6 +5,7 @@
 //     lueur measure SCENE --points IN.csv -o OUT.csv  irradiance and illuminance at points
 //     lueur form-factors CASES.json -o OUT.json       every method on pairs of polygons with occluders
 //     lueur plan SCENE                                how many wavelengths the scene needs, and why
+//     lueur chart SCENE -o OUT.svg --csv OUT.csv      error against time of every method
 //     lueur chart --of spectra -o OUT.svg             colour difference against the number of samples and solve time
 //
 // Nothing is printed and nothing is opened here; ui/main.cpp visits the variant. Exit status: 0 done, 1 could not be
@@ -99,12 +100,16 @@ struct PlanCommand {
     BatchParams batch;
 };
 
-enum class ChartSubject { spectra };
+enum class ChartSubject { methods, spectra };
 
 struct ChartCommand {
     BatchParams batch; // without a scene: the default one (editor/asset_path.h)
-    ChartSubject of = ChartSubject::spectra;
+    ChartSubject of = ChartSubject::methods;
     std::filesystem::path output, csv; // csv empty: none
+    // Of methods only. 0: as ChartParams (editor/chart/run_chart.h) has it, or less for a quick chart.
+    bool quick = false;
+    int points = 0, paths = 0;
+    double run_time = 0; // s
 };
 
 struct FormFactorsCommand {

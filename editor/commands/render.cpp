@@ -8,7 +8,9 @@
 #include "core/display/legend.h"
 #include "core/scene/floor.h"
 #include "core/scene/scene_file.h"
+#include "core/solve/choose_solver.h"
 #include "core/transport/mesh.h"
+#include "core/view/reference_picture.h"
 #include "core/view/spectral_picture.h"
 #include "editor/commands/batch_session.h"
 #include "editor/commands/output_file.h"
@@ -67,8 +69,16 @@ DisplaySettings display_of(const RenderCommand& command, DisplaySettings display
     return display;
 }
 
+// A traced picture has no field: its pixels are what scales are fitted to.
+Field field_of_pixels(const RadianceImage& image) {
+    Field field;
+    field.irradiance_xyz = field.reflected_xyz = image.xyz;
+    return field;
+}
+
 // The numbers that are really used, so that the picture can be made again.
-DisplaySettings display_used(const RadianceImage& image, const Scene& scene, const Mesh& mesh, const Field& field) {
+DisplaySettings display_used(const RadianceImage& image, const Scene& scene, const Field& field,
+                             const std::vector<float>& areas) {
     DisplaySettings display = scene.display;
     std::vector<float> luminances;
     luminances.reserve(image.xyz.size());
@@ -79,7 +89,6 @@ DisplaySettings display_used(const RadianceImage& image, const Scene& scene, con
         lecture = lecture_max_display(facts.luminous_flux, facts.floor_area, facts.mean_reflectance, display.primaries);
     }
     display = resolved(display, luminances, lecture);
-    const auto areas = vertex_areas(mesh);
     display.luminance_scale = fitted_to(display.luminance_scale, field, areas, PictureQuantity::luminance);
     display.illuminance_scale = fitted_to(display.illuminance_scale, field, areas, PictureQuantity::illuminance);
     return display;
@@ -115,6 +124,14 @@ int render(const RenderCommand& command, BatchSession& session) {
         session.error("--spectral: needs an output ending in .exr, --quantity colour and other wavelengths than rgb");
         return exit_mistake;
     }
+    const bool traced = chosen_solver(*scene) == SolverKind::reference;
+    const bool of_the_field =
+        command.quantity == PictureQuantity::colour_difference || command.quantity == PictureQuantity::error;
+    if (traced && (command.spectral || of_the_field)) {
+        session.error(fmt::format("{}: the reference solver traces pictures without a field; another --solver has one",
+                                  command.spectral ? "--spectral" : "--quantity " + to_string(command.quantity)));
+        return exit_mistake;
+    }
     if (command.quantity == PictureQuantity::colour_difference) {
         if (scene->solve.wavelengths.rule == WavelengthRule::rgb) {
             session.error("--quantity colour_difference: compares other wavelengths with rgb; needs others than rgb");
@@ -123,11 +140,28 @@ int render(const RenderCommand& command, BatchSession& session) {
         scene->solve.compare_trichromatic = true;
     }
     Solution solution(scene);
-    if (const auto solved = session.solve(solution, false); !solved) return solved.error();
+    if (const auto solved = session.solve(solution, traced); !solved) return solved.error();
+    SolveStatus status = solution.status();
 
+    ReferencePicture picture;
     RadianceImage image;
     SpectralImage spectral;
     session.timed("picture", [&] {
+        if (traced) {
+            picture = trace_picture(solution, scene->camera,
+                                    {.width = command.width,
+                                     .height = command.height,
+                                     .quantity = command.quantity,
+                                     .target_error = scene->solve.target_error,
+                                     .time_limit = command.batch.time_limit,
+                                     .seed = scene->solve.seed},
+                                    session.cancel(), [&](double share) { session.bar().show("paths", share); });
+            image = picture.image;
+            status.estimated_error = picture.relative_error;
+            status.paths = std::uint64_t(picture.passes) * image.xyz.size();
+            status.settled = picture.relative_error <= scene->solve.target_error;
+            return;
+        }
         const FieldView view{scene, solution.mesh(), solution.world(), solution.field()};
         const PictureParams size{.width = command.width, .height = command.height};
         image = render_picture(view, scene->camera, size, command.quantity, session.cancel(),
@@ -140,8 +174,7 @@ int render(const RenderCommand& command, BatchSession& session) {
 
     std::expected<void, std::string> written;
     session.timed("write", [&] {
-        auto metadata =
-            picture_metadata(*scene, command.batch.scene, scene->camera, solution.status(), command.quantity);
+        auto metadata = picture_metadata(*scene, command.batch.scene, scene->camera, status, command.quantity);
         if (command.spectral) {
             written = spectral.planes.empty()
                           ? std::unexpected(std::string("--spectral: the scene is too large to keep its wavelengths"))
@@ -152,15 +185,21 @@ int render(const RenderCommand& command, BatchSession& session) {
             written = write_radiance_image(command.output, image, metadata);
             return;
         }
-        const DisplaySettings display = display_used(image, *scene, *solution.mesh(), *solution.field());
+        const DisplaySettings display =
+            traced ? display_used(image, *scene, field_of_pixels(image), std::vector<float>(image.xyz.size(), 1.0f))
+                   : display_used(image, *scene, *solution.field(), vertex_areas(*solution.mesh()));
         add_display_metadata(metadata, display, command.false_colour.on);
         written = write_picture(command, image, display, metadata);
     });
     if (!written) return session.failed(written.error());
     session.bar().wipe();
-    fmt::print("{}: {}x{}, solved in {:.2f} s, {}\n", command.output.string(), image.width, image.height,
-               session.solve_seconds(), error_text(solution.status()));
-    return session.finish(solution);
+    if (traced)
+        fmt::print("{}: {}x{}, {} paths a pixel, standard error of a pixel {:.2f} %\n", command.output.string(),
+                   image.width, image.height, picture.passes, 100 * picture.relative_error);
+    else
+        fmt::print("{}: {}x{}, solved in {:.2f} s, {}\n", command.output.string(), image.width, image.height,
+                   session.solve_seconds(), error_text(status));
+    return session.finish(solution, status);
 }
 
 } // namespace

@@ -7,13 +7,13 @@
 #include <tbb/task_arena.h>
 
 #include "core/scene/solver_words.h"
+#include "core/solve/choose_solver.h"
 
 namespace lueur {
 
 std::string report_json(const std::string& command, const BatchParams& params, const Solution& solution,
-                        const BatchSolveResult& solved,
+                        const SolveStatus& status, const BatchSolveResult& solved,
                         const std::vector<std::pair<std::string, double>>& stage_seconds) {
-    const SolveStatus& status = solution.status();
     const SolveSettings& settings = solution.scene()->solve;
     nlohmann::ordered_json stages = nlohmann::ordered_json::object();
     for (auto [stage, seconds] : stage_seconds) {
@@ -29,8 +29,8 @@ std::string report_json(const std::string& command, const BatchParams& params, c
     report["command"] = command;
     report["scene"] = params.scene.string();
     report["solver"] = to_string(settings.solver);
-    report["solver_in_use"] = to_string(chosen_solver(settings));
-    if (uses_form_factors(chosen_solver(settings))) {
+    report["solver_in_use"] = to_string(chosen_solver(*solution.scene()));
+    if (uses_form_factors(chosen_solver(*solution.scene()))) {
         report["form_factors"] = to_string(settings.form_factors);
         report["form_factor_samples"] = settings.form_factor_samples;
     }
@@ -44,6 +44,7 @@ std::string report_json(const std::string& command, const BatchParams& params, c
     report["solve_seconds"] = solved.seconds;
     report["rays"] = status.rays;
     report["form_factor_cost"] = status.form_factor_cost;
+    if (status.paths > 0) report["paths"] = status.paths;
     report["rays_per_receiver"] = status.rays_per_receiver;
     report["rows"] = status.receivers;
     report["row_entries"] = status.row_entries;
@@ -52,6 +53,13 @@ std::string report_json(const std::string& command, const BatchParams& params, c
     report["matrix_bytes"] = status.matrix_bytes;
     report["vertices"] = status.vertices;
     report["elements"] = status.elements;
+    if (chosen_solver(*solution.scene()) == SolverKind::hierarchical) {
+        report["links"] = status.links;
+        report["link_elements"] = status.link_elements;
+        report["link_levels"] = status.link_levels;
+        report["link_rounds"] = status.link_rounds;
+        report["error_bound_percent"] = 100 * status.error_bound;
+    }
     report["sweeps"] = status.sweeps;
     report["shots"] = status.shots;
     report["emitted_lumens"] = status.emitted_lumens;

@@ -13,7 +13,7 @@ namespace lueur {
 
 // Seconds, bytes and percent as the keys say. `stage_seconds` in the order they ran.
 std::string report_json(const std::string& command, const BatchParams& params, const Solution& solution,
-                        const BatchSolveResult& solved,
+                        const SolveStatus& status, const BatchSolveResult& solved,
                         const std::vector<std::pair<std::string, double>>& stage_seconds);
 
 } // namespace lueur

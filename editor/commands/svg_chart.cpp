@@ -11,8 +11,8 @@ namespace lueur {
 
 namespace {
 
-constexpr double panel_width = 320, panel_height = 250; // of the plotted area, in pixels
-constexpr double left = 58, right = 22, above = 34, below = 56, margin = 14, legend_line = 20;
+constexpr double left = 58, right = 22, above = 34, below = 56, margin = 14, legend_line = 20; // pixels
+constexpr double name_line = 14.5, remark_line = 16, letter = 6.1; // of text as small as names and remarks
 constexpr const char* ground = "#fcfcfa";
 constexpr const char* ink = "#222222";
 constexpr const char* faint_ink = "#55585c";
@@ -74,11 +74,63 @@ std::vector<double> ticks(const ChartAxis& axis) {
     return values;
 }
 
+std::string mark_svg(ChartMark mark, double x, double y, double size, const char* colour) {
+    const auto outline = [&](const char* path) {
+        return fmt::format("<path transform=\"translate({:.1f} {:.1f}) scale({:g})\" d=\"{}\" stroke=\"none\" "
+                           "fill=\"{}\"/>\n",
+                           x, y, size, path, colour);
+    };
+    const auto strokes = [&](const char* path) {
+        return fmt::format("<path transform=\"translate({:.1f} {:.1f}) scale({:g})\" d=\"{}\" fill=\"none\" "
+                           "stroke=\"{}\" stroke-width=\"0.7\"/>\n",
+                           x, y, size, path, colour);
+    };
+    switch (mark) {
+    case ChartMark::circle:
+        return fmt::format("<circle stroke=\"none\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:g}\" fill=\"{}\"/>\n", x, y, size,
+                           colour);
+    case ChartMark::square:
+        return outline("M-1 -1h2v2h-2z");
+    case ChartMark::triangle:
+        return outline("M0 -1.3L1.2 0.9h-2.4z");
+    case ChartMark::diamond:
+        return outline("M0 -1.5L1.3 0L0 1.5L-1.3 0z");
+    case ChartMark::plus:
+        return strokes("M-1.4 0h2.8M0 -1.4v2.8");
+    case ChartMark::star:
+        return strokes("M-1.1 -1.1l2.2 2.2M-1.1 1.1l2.2 -2.2");
+    case ChartMark::bar:
+        return strokes("M0 -1.6v3.2");
+    }
+    return {};
+}
+
+// Cut between words, no line longer than `width` pixels; the lines after the first stand further in.
+std::vector<std::string> wrapped_remark(const std::string& text, double width) {
+    const auto letters = static_cast<std::size_t>(std::max(20.0, width / letter));
+    std::vector<std::string> lines;
+    std::string line;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find(' ', at), text.size());
+        const std::string word = text.substr(at, end - at);
+        if (!line.empty() && line.size() + 1 + word.size() > letters) {
+            lines.push_back(line);
+            line = "    " + word;
+        } else
+            line += (line.empty() ? "" : " ") + word;
+        at = end + 1;
+    }
+    lines.push_back(line);
+    return lines;
+}
+
 class PanelWriter {
 public:
     PanelWriter(const Chart& chart, const ChartPanel& panel, double x, double y)
         : chart_(chart)
         , panel_(panel)
+        , panel_width(chart.panel_width)
+        , panel_height(chart.panel_height)
         , x_(x)
         , y_(y) {}
 
@@ -95,6 +147,7 @@ public:
             out += line(x_, up(tick), x_ + panel_width, up(tick), "#e2e2de", 1);
             out += text_at(x_ - 7, up(tick) + 4, fmt::format("{:g}", tick), "end", faint_ink, 11.5);
         }
+        if (!panel_.front.empty()) out += front_svg();
         if (panel_.level)
             out += line(x_, up(*panel_.level), x_ + panel_width, up(*panel_.level), "#888888", 1.2, "2 3");
         out += fmt::format(
@@ -104,7 +157,12 @@ public:
         out +=
             text_at(0, 0, panel_.y.label, "middle", ink, 12,
                     fmt::format(" transform=\"translate({:.1f} {:.1f}) rotate(-90)\"", x_ - 42, y_ + panel_height / 2));
+        if (!panel_.dots.empty()) out += dots_svg();
         for (const ChartCurve& curve : panel_.curves) out += curve_svg(curve);
+        for (const ChartFailure& failure : panel_.failures)
+            out += fmt::format("<path d=\"M{:.1f} {:.1f}m-4 -4l8 8m-8 0l8 -8\" stroke=\"{}\" stroke-width=\"2\"/>\n",
+                               across(failure.x), y_ + 8, colour_of(chart_.series.at(failure.series)));
+        if (chart_.names_width > 0) out += names_svg();
         return out;
     }
 
@@ -134,8 +192,7 @@ private:
                 marks += fmt::format("<path d=\"M{:.1f} {:.1f}l5 5l-5 5l-5 -5z\" fill=\"{}\" stroke=\"{}\"/>\n", x,
                                      y - 5, curve.dashed ? ground : colour, colour);
             else
-                marks += fmt::format("<circle stroke=\"none\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\"/>\n", x,
-                                     y, curve.dashed ? 1.6 : 2.6, colour);
+                marks += mark_svg(series.mark, x, y, curve.dashed ? 1.6 : 2.6, colour);
         }
         if (series.marks_only || curve.points.size() < 2) return marks;
         return fmt::format(
@@ -144,20 +201,111 @@ private:
                marks;
     }
 
+    // Hundreds of them in one path: strokes without length under round caps.
+    std::string dots_svg() const {
+        std::string path;
+        for (const glm::dvec2& dot : panel_.dots) path += fmt::format("M{:.1f} {:.1f}h0", across(dot.x), up(dot.y));
+        return fmt::format("<path d=\"{}\" stroke=\"#b9bbbd\" stroke-width=\"2.6\" stroke-linecap=\"round\"/>\n", path);
+    }
+
+    // From each point to the time of the next at the same error, then down: what is best until then.
+    std::string front_svg() const {
+        std::string path;
+        for (const glm::dvec2& point : panel_.front)
+            path += path.empty() ? fmt::format("M{:.1f} {:.1f}", across(point.x), up(point.y))
+                                 : fmt::format("H{:.1f}V{:.1f}", across(point.x), up(point.y));
+        path += fmt::format("H{:.1f}", x_ + panel_width);
+        return fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#f3df9b\" stroke-width=\"9\" "
+                           "stroke-linejoin=\"round\"/>\n",
+                           path);
+    }
+
+    // The name of each curve right of the panel, as near to its end as the other names allow, with a thin line to it.
+    std::string names_svg() const {
+        std::vector<const ChartCurve*> named;
+        for (const ChartCurve& curve : panel_.curves)
+            if (!curve.points.empty()) named.push_back(&curve);
+        std::ranges::stable_sort(named, {}, [&](const ChartCurve* curve) { return up(curve->points.back().y); });
+        std::vector<double> wanted;
+        for (const ChartCurve* curve : named) wanted.push_back(up(curve->points.back().y));
+        const auto places = spread_out(wanted, name_line, y_ + 2, y_ + panel_height + below - 10);
+        const double start = x_ + panel_width + 24;
+        std::string out;
+        for (std::size_t i = 0; i < named.size(); ++i) {
+            const ChartSeries& series = chart_.series.at(named[i]->series);
+            const double x = across(named[i]->points.back().x);
+            out += fmt::format("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}L{:.1f} {:.1f}\" fill=\"none\" stroke=\"{}\" "
+                               "stroke-width=\"0.6\" stroke-opacity=\"0.55\"/>\n",
+                               x, wanted[i], x_ + panel_width + 2, wanted[i], start - 4, places[i], colour_of(series));
+            out += mark_svg(series.mark, start + 4, places[i], 2.8, colour_of(series));
+            out += text_at(start + 12, places[i] + 4, series.name, "start", colour_of(series), 11.5);
+        }
+        return out;
+    }
+
     const Chart& chart_;
     const ChartPanel& panel_;
+    const double panel_width, panel_height;
     double x_, y_;
 };
 
 } // namespace
 
+std::vector<double> spread_out(std::span<const double> wanted, double spacing, double low, double high) {
+    std::vector<double> places(wanted.begin(), wanted.end());
+    double least = low;
+    for (double& place : places) {
+        place = std::max(place, least);
+        least = place + spacing;
+    }
+    double most = high;
+    for (auto place = places.rbegin(); place != places.rend(); ++place) {
+        *place = std::min(*place, most);
+        most = *place - spacing;
+    }
+    return places;
+}
+
 std::string svg_text(const Chart& chart) {
     const std::size_t columns = std::max<std::size_t>(1, std::min(chart.columns, chart.panels.size())),
                       rows = (chart.panels.size() + columns - 1) / columns;
-    const double cell_width = left + panel_width + right, cell_height = above + panel_height + below;
-    const double top = margin + 62 + (chart.note.empty() ? 0 : legend_line);
-    const double width = 2 * margin + static_cast<double>(columns) * cell_width,
-                 height = top + static_cast<double>(rows) * cell_height + margin;
+    const double cell_width = left + chart.panel_width + right + chart.names_width,
+                 cell_height = above + chart.panel_height + below;
+    const double width = 2 * margin + static_cast<double>(columns) * cell_width;
+
+    std::string legend;
+    double top = margin + 18; // the line of the title
+    if (chart.names_width <= 0) {
+        top += 26;
+        double x = margin + 8;
+        for (const ChartSeries& series : chart.series) {
+            const double room = 26 + 7.2 * static_cast<double>(series.name.size());
+            if (x + room > width - margin && x > margin + 8) {
+                x = margin + 8;
+                top += legend_line;
+            }
+            if (series.marks_only)
+                legend += fmt::format("<path d=\"M{:.1f} {:.1f}l5 5l-5 5l-5 -5z\" fill=\"{}\"/>\n", x + 10, top - 9,
+                                      colour_of(series));
+            else
+                legend += fmt::format("<path d=\"M{:.1f} {:.1f}h20\" stroke=\"{}\" stroke-width=\"3\"/>\n", x, top - 4,
+                                      colour_of(series));
+            legend += text_at(x + 26, top, series.name, "start", ink, 12.5);
+            x += room + 22;
+        }
+    }
+    if (!chart.note.empty()) {
+        top += legend_line;
+        legend += text_at(margin + 8, top, chart.note, "start", faint_ink, 12);
+    }
+    top += 18;
+
+    std::vector<std::string> remarks;
+    for (const std::string& remark : chart.remarks)
+        for (std::string& line : wrapped_remark(remark, width - 2 * margin - 16)) remarks.push_back(std::move(line));
+    const double bottom = top + static_cast<double>(rows) * cell_height,
+                 height = bottom + static_cast<double>(remarks.size()) * remark_line + margin;
+
     std::string out = fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} "
         "{1:.0f}\" font-family=\"Inter, Helvetica, Arial, sans-serif\">\n",
@@ -167,23 +315,14 @@ std::string svg_text(const Chart& chart) {
                        "stroke=\"#c9cbce\"/>\n",
                        width - 1, height - 1, ground);
     out += text_at(margin + 8, margin + 18, chart.title, "start", ink, 16, " font-weight=\"600\"");
-    double x = margin + 8;
-    for (const ChartSeries& series : chart.series) {
-        const double y = margin + 44;
-        if (series.marks_only)
-            out += fmt::format("<path d=\"M{:.1f} {:.1f}l5 5l-5 5l-5 -5z\" fill=\"{}\"/>\n", x + 10, y - 9,
-                               colour_of(series));
-        else
-            out += fmt::format("<path d=\"M{:.1f} {:.1f}h20\" stroke=\"{}\" stroke-width=\"3\"/>\n", x, y - 4,
-                               colour_of(series));
-        out += text_at(x + 26, y, series.name, "start", ink, 12.5);
-        x += 26 + 7.2 * static_cast<double>(series.name.size()) + 22;
-    }
-    if (!chart.note.empty()) out += text_at(margin + 8, margin + 44 + legend_line, chart.note, "start", faint_ink, 12);
+    out += legend;
     for (std::size_t i = 0; i < chart.panels.size(); ++i)
         out += PanelWriter(chart, chart.panels[i], margin + static_cast<double>(i % columns) * cell_width + left,
                            top + static_cast<double>(i / columns) * cell_height + above)
                    .svg();
+    for (std::size_t i = 0; i < remarks.size(); ++i)
+        out += text_at(margin + 8, bottom + static_cast<double>(i + 1) * remark_line - 6, remarks[i], "start",
+                       faint_ink, 11.5, " xml:space=\"preserve\"");
     return out + "</svg>\n";
 }
 

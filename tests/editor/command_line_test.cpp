@@ -285,7 +285,24 @@ TEST(CommandLine, Chart) {
     EXPECT_EQ(chart.output, "a.svg");
     EXPECT_EQ(chart.csv, "a.csv");
     EXPECT_EQ(parsed<ChartCommand>({"chart", "room.toml", "--of", "spectra", "-o", "a.svg"}).batch.scene, "room.toml");
-    for (const std::vector<const char*>& wrong : {std::vector<const char*>{"chart", "-o", "a.svg"},
+    const auto methods =
+        parsed<ChartCommand>({"chart", "room.toml", "-o", "a.svg", "--time", "30", "--run-time", "2.5", "--points",
+                              "50", "--paths", "128", "--quick", "--solver", "gauss-seidel", "--seed", "3"});
+    EXPECT_EQ(methods.of, ChartSubject::methods);
+    EXPECT_EQ(methods.batch.time_limit, 30);
+    EXPECT_EQ(methods.run_time, 2.5);
+    EXPECT_EQ(methods.points, 50);
+    EXPECT_EQ(methods.paths, 128);
+    EXPECT_TRUE(methods.quick);
+    EXPECT_EQ(methods.batch.solve.solver, SolverKind::gauss_seidel);
+    EXPECT_EQ(methods.batch.solve.seed, 3u);
+    for (const std::vector<const char*>& wrong : {std::vector<const char*>{"chart"},
+                                                  {"chart", "-o", "a.svg", "--error", "2"},
+                                                  {"chart", "-o", "a.svg", "--report", "a.json"},
+                                                  {"chart", "-o", "a.svg", "--points", "9"},
+                                                  {"chart", "-o", "a.svg", "--time", "0"},
+                                                  {"chart", "--of", "spectra", "-o", "a.svg", "--time", "5"},
+                                                  {"chart", "--of", "spectra", "-o", "a.svg", "--quick"},
                                                   {"chart", "--of", "tea", "-o", "a.svg"},
                                                   {"chart", "--of", "spectra"},
                                                   {"chart", "--of", "spectra", "-o", "a.png"},

@@ -13,6 +13,7 @@
 
 #include "core/display/image_file.h"
 #include "editor/asset_path.h"
+#include "editor/chart/chart_table.h"
 #include "editor/commands/csv.h"
 #include "editor/commands/number_text.h"
 #include "tests/editor/temporary_folder.h"
@@ -138,14 +139,15 @@ TEST_F(Furnace, MeasuresTwoWattsEverywhere) {
 
 TEST_F(Furnace, MeasuresWithEverySolverAndAtEveryPlace) {
     const std::string on_walls = "x,y,z,nx,ny,nz\n1,0,1,0,1,0\n0,0.5,1.5,1,0,0\n";
-    for (const auto solver : {SolverKind::gathering, SolverKind::shooting})
+    for (const auto solver : {SolverKind::gathering, SolverKind::shooting, SolverKind::overshooting, SolverKind::jacobi,
+                              SolverKind::gauss_seidel})
         for (const auto at : {MeasureAt::gather, MeasureAt::field}) {
             auto command = measure(on_walls);
             command.batch.solve.solver = solver;
             command.at = at;
             ASSERT_EQ(run(command), 0);
-            // Shooting sends light from whole elements, here half a metre wide.
-            for (const auto& row : measured()) EXPECT_NEAR(row[1], 2, solver == SolverKind::shooting ? 0.1 : 0.01);
+            // The others send light from whole elements, here half a metre wide.
+            for (const auto& row : measured()) EXPECT_NEAR(row[1], 2, solver == SolverKind::gathering ? 0.01 : 0.1);
         }
     auto reference = measure(on_walls);
     reference.at = MeasureAt::reference;
@@ -378,6 +380,7 @@ TEST_F(Furnace, PlanTellsMistakesAndWritesNothing) {
 
 TEST_F(Furnace, ChartsSpectra) {
     ChartCommand chart;
+    chart.of = ChartSubject::spectra;
     chart.batch.scene = file("furnace.toml");
     chart.output = file("chart.svg");
     chart.csv = file("chart.csv");
@@ -406,8 +409,34 @@ TEST_F(Furnace, ChartsSpectra) {
     EXPECT_EQ(autos, 6);
 }
 
+TEST_F(Furnace, ChartsMethods) {
+    ChartCommand chart;
+    chart.batch.scene = file("furnace.toml");
+    chart.batch.time_limit = 2;
+    chart.run_time = 0.2;
+    chart.points = 40;
+    chart.paths = 256;
+    chart.output = file("chart.svg");
+    chart.csv = file("chart.csv");
+    testing::internal::CaptureStdout();
+    ASSERT_EQ(run(chart), 0);
+    EXPECT_THAT(testing::internal::GetCapturedStdout(), HasSubstr("The best of them:\n  from "));
+    const std::string svg = text_of(file("chart.svg"));
+    for (const char* word : {"gathering", "shooting", "solve time, s", "256 traced paths"})
+        EXPECT_THAT(svg, HasSubstr(word));
+    const auto table = parse_chart_table(text_of(file("chart.csv")), "chart.csv");
+    ASSERT_TRUE(table) << table.error().front();
+    EXPECT_EQ(methods_of(*table), all_chart_methods()) << "every method is there, whether it ended well or not";
+    EXPECT_EQ(table->runs.size(), all_chart_methods().size() * chart_budgets().size());
+    for (const ChartRun& run : table->runs) {
+        if (run.end != RunEnd::settled || run.method.solver != SolverKind::gathering) continue;
+        EXPECT_LT(run.points.back().error.rms, 0.2) << "a furnace is as bright everywhere";
+    }
+}
+
 TEST_F(Furnace, AnInterruptedChartWritesNothing) {
     ChartCommand chart;
+    chart.of = ChartSubject::spectra;
     chart.batch.scene = file("furnace.toml");
     chart.output = file("chart.svg");
     chart.csv = file("nowhere") / "chart.csv";
@@ -415,11 +444,14 @@ TEST_F(Furnace, AnInterruptedChartWritesNothing) {
     EXPECT_EQ(run(chart), 2);
     EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("there is no folder"));
     chart.csv = file("chart.csv");
-    std::jthread ctrl_c([] {
-        std::this_thread::sleep_for(std::chrono::milliseconds(200));
-        kill(getpid(), SIGINT);
-    });
-    EXPECT_EQ(run(chart), 130);
+    for (const ChartSubject subject : {ChartSubject::spectra, ChartSubject::methods}) {
+        chart.of = subject;
+        std::jthread ctrl_c([] {
+            std::this_thread::sleep_for(std::chrono::milliseconds(200));
+            kill(getpid(), SIGINT);
+        });
+        EXPECT_EQ(run(chart), 130);
+    }
     EXPECT_EQ(files_in(folder_.path()), 1u);
 }
 

@@ -40,6 +40,44 @@ TEST(SvgChart, PutsPointsOnLogarithmicAxes) {
     EXPECT_GT(points[2].y - points[0].y, 150);
 }
 
+TEST(SvgChart, NamesAtTheEndsOfCurvesKeepApart) {
+    EXPECT_THAT(spread_out(std::vector<double>{10, 11, 12, 50}, 5, 0, 100), testing::ElementsAre(10, 15, 20, 50));
+    EXPECT_THAT(spread_out(std::vector<double>{90, 95, 99}, 5, 0, 100), testing::ElementsAre(90, 95, 100));
+    EXPECT_THAT(spread_out(std::vector<double>{98, 99, 99}, 5, 0, 100), testing::ElementsAre(90, 95, 100));
+    EXPECT_TRUE(spread_out({}, 5, 0, 100).empty());
+    // In a chart: two curves that end at one place, a name each, no legend.
+    Chart chart = small_chart();
+    chart.names_width = 100;
+    chart.series[1].marks_only = false;
+    chart.panels[0].curves[1].points = {{1, 5}, {100, 0.1}};
+    const std::string svg = svg_text(chart);
+    const std::regex name("y=\"([0-9.]+)\"[^>]*>(jacobi|auto)<");
+    std::vector<double> heights;
+    for (std::sregex_iterator i(svg.begin(), svg.end(), name), end; i != end; ++i)
+        heights.push_back(std::stod((*i)[1]));
+    ASSERT_EQ(heights.size(), 2u);
+    EXPECT_GE(std::abs(heights[0] - heights[1]), 14);
+}
+
+TEST(SvgChart, MarksTheFrontAndWhatFailed) {
+    Chart chart = small_chart();
+    const std::string before = svg_text(chart);
+    chart.panels[0].front = {{1, 10}, {10, 1}};
+    chart.panels[0].failures = {{0, 10}};
+    chart.remarks = {"\u00d7 refused \u2013 jacobi", std::string(300, 'x') + " " + std::string(300, 'y')};
+    const std::string svg = svg_text(chart);
+    EXPECT_THAT(svg, HasSubstr("stroke=\"#f3df9b\""));
+    EXPECT_THAT(svg, HasSubstr("\u00d7 refused \u2013 jacobi"));
+    EXPECT_THAT(svg, HasSubstr("m-4 -4l8 8m-8 0l8 -8"));
+    EXPECT_THAT(svg, Not(HasSubstr(std::string(300, 'x') + " "))) << "a long remark is cut between words";
+    const auto height = [](const std::string& text) {
+        std::smatch found;
+        std::regex_search(text, found, std::regex("height=\"([0-9]+)\""));
+        return std::stod(found[1]);
+    };
+    EXPECT_NEAR(height(svg) - height(before), 3 * 16, 1);
+}
+
 TEST(SvgChart, DrawsWhatIsOutsideOnTheEdge) {
     Chart inside = small_chart(), outside = small_chart();
     inside.panels[0].curves[0].points = {{1, 0.1}, {100, 10}};

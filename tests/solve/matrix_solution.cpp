@@ -5,8 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/scene/scene_file.h"
 #include "core/solve/solution_state.h"
 #include "tests/support/scenes.h"
+#include "tests/support/source_folder.h"
 
 using namespace lueur;
 
@@ -32,6 +34,7 @@ TEST(MatrixSolution, FurnaceByEverySolver) {
             Scene scene = test::furnace(rho);
             scene.solve.solver = solver;
             scene.solve.element_size = 0.5;
+            scene.solve.target_error = 0.005;
             scene.solve.form_factors = FormFactorMethod::hemisphere;
             const Solution solution = test::solved(scene);
             ASSERT_TRUE(solution.status().settled) << solution.status().message;
@@ -193,4 +196,54 @@ TEST(MatrixSolution, ReflectancesTooCloseToOne) {
     EXPECT_EQ(solution.status().stage, SolveStage::failed);
     EXPECT_THAT(solution.status().message, testing::HasSubstr("a reflectance is too close to 1"));
     EXPECT_LT(solution.status().sweeps, 100u) << "foreseen, not tried";
+}
+
+// Feda & Purgathofer 1992: fewer shots when a patch shoots also what ambient light has yet to bring it.
+TEST(MatrixSolution, OvershootingOnTheCornellBox) {
+    auto loaded = load_scene(test::source_folder() / "assets/cornell.toml",
+                             {.spectrum_library = test::source_folder() / "assets/spectra"});
+    ASSERT_TRUE(loaded.has_value());
+    Scene scene = loaded->scene;
+    scene.solve.solver = SolverKind::jacobi;
+    scene.solve.element_size = 0.15;
+    scene.solve.form_factors = FormFactorMethod::hemisphere;
+    scene.solve.form_factor_samples = 24;
+    Solution solution(std::make_shared<const Scene>(scene));
+    test::settle(solution);
+    ASSERT_TRUE(solution.status().settled) << solution.status().message;
+    FormFactorMatrix matrix = solution.state().patch_solve.matrix;
+    const Solution::State& s = solution.state();
+    PatchField rho(matrix.n, 1), exitance(matrix.n, 1);
+    for (std::uint32_t e = 0; e < s.mesh.coarse_element_count; ++e) {
+        rho[e][0] = s.material_rho[s.material_of(s.mesh.coarse_surface[e])][1];
+        exitance[e][0] = s.luminaire_of(s.mesh.coarse_surface[e], false) ? 1 : 0;
+    }
+    transpose(matrix);
+    int shots[2] = {};
+    for (const bool over : {false, true}) {
+        MatrixSystem system(matrix, 1, {1.0f});
+        system.set_sources(rho, exitance);
+        while (system.unshot_share() > 1e-3 && shots[over] < 1000000) {
+            ASSERT_TRUE(system.shoot(over));
+            ++shots[over];
+        }
+        EXPECT_FALSE(system.overshooting_given_up());
+        EXPECT_LE(system.unshot_share(), 1e-3);
+    }
+    printf("Cornell box, %u patches, to 0.1 %% unshot: shooting %d shots, overshooting %d\n", matrix.n, shots[0],
+           shots[1]);
+    EXPECT_LT(shots[1], shots[0]);
+}
+
+TEST(MatrixSolution, TransposedAndBack) {
+    for (const std::uint32_t n : {1u, 7u, 32u, 75u}) {
+        FormFactorMatrix matrix = *make_form_factor_matrix(std::vector<float>(n, 1.0f), 1 << 20);
+        for (std::uint32_t k = 0; k < n * n; ++k) matrix.values[k] = static_cast<float>(k);
+        const std::vector<float> before = matrix.values;
+        transpose(matrix);
+        for (std::uint32_t i = 0; i < n; ++i)
+            for (std::uint32_t j = 0; j < n; ++j) ASSERT_EQ(matrix.at(i, j), before[i * n + j]);
+        transpose(matrix);
+        EXPECT_EQ(matrix.values, before);
+    }
 }

@@ -34,8 +34,10 @@ TEST(MatrixSolvers, FurnaceAndItsBounces) {
     for (const Method method : test::all_methods) {
         MatrixSystem system = test::system_of(cube, test::field_of(rho), test::field_of(e), 5);
         ASSERT_GT(test::converge(system, method, 1e-9, 100000), 0) << test::name(method);
+        // Of five floats a row sum is off by 3e-8 at most, and 1 / (1 - rho) multiplies that.
         for (int c = 0; c < 5; ++c)
-            expect_near(system.radiosity(), c, std::vector<double>(6, 1 / (1 - rhos[c])), 1e-6, test::name(method));
+            expect_near(system.radiosity(), c, std::vector<double>(6, 1 / (1 - rhos[c])), 1e-7 + 3e-8 / (1 - rhos[c]),
+                        test::name(method));
     }
     MatrixSystem jacobi = test::system_of(cube, test::field_of(rho), test::field_of(e), 5);
     for (int bounce = 1; bounce <= 10; ++bounce) {
@@ -245,9 +247,9 @@ TEST(MatrixSolvers, AllGiveTheSameRadiositiesOnTheSameFormFactors) {
         for (int c = 0; c < channels; ++c)
             rho[i][c] = i % 10 == 0 ? 0 : 0.95 * unit(random), e[i][c] = i % 50 == 7 ? unit(random) : 0;
     const std::atomic<bool> never{false};
-    const auto exact = conjugate_gradients(f, rho, e, channels, 1e-12, 500, never);
+    const auto exact = conjugate_gradients(f, rho, e, channels, 1e-9, 500, never);
     ASSERT_TRUE(exact.has_value()) << exact.error();
-    EXPECT_LT(test::residual_of(f, exact->radiosity, rho, e, channels), 1e-8);
+    EXPECT_LT(test::residual_of(f, exact->radiosity, rho, e, channels), 1e-7);
     for (const Method method : test::all_methods) {
         MatrixSystem system = test::system_of(f, rho, e, channels);
         const int steps = test::converge(system, method, 1e-9, 1000000);
@@ -288,7 +290,7 @@ TEST(MatrixSolvers, JacobiResidualAndGaussSeidelErrorFallBySweep) {
         const double residual = jacobi.relative_residual(), gauss_error = error(gauss);
         test::one_step(jacobi, Method::jacobi), test::one_step(gauss, Method::gauss_seidel);
         EXPECT_LE(jacobi.relative_residual(), 0.9 * residual * (1 + 1e-9)) << sweep;
-        EXPECT_LE(error(gauss), 0.9 * gauss_error * (1 + 1e-9)) << sweep;
+        EXPECT_LE(error(gauss), 0.9 * gauss_error + 1e-11) << sweep; // but for rounding of numbers near 10
         ahead += error(gauss) < error(jacobi);
         // The residual that is said, known without another application of F, is the residual there is.
         const PatchField before = gauss.radiosity();

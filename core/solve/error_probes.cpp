@@ -1,0 +1,143 @@
+#include "core/solve/error_probes.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/transport/direct_light.h"
+#include "core/transport/sampling.h"
+#include "core/transport/time_slice.h"
+
+namespace lueur {
+
+namespace {
+
+// How uncertain direct light is at each vertex, all luminaires of one flux, relative to the mean light.
+std::vector<float> direct_uncertainty(const Mesh& mesh, const DirectTransport& direct) {
+    std::vector<float> uncertainty(mesh.vertices.size(), 0);
+    double mean = 0;
+    for (std::uint32_t v = 0; v < uncertainty.size(); ++v)
+        for (std::size_t l = 0; l < direct.emitter_count(); ++l)
+            if (const float area = direct.emitters()[l].area; area > 0) {
+                uncertainty[v] += direct.deviation_at_vertex(v)[l] / area;
+                mean += double(direct.at_vertex(v)[l]) / area;
+            }
+    mean /= std::max<double>(1, double(uncertainty.size()));
+    for (float& u : uncertainty) u = mean > 0 ? static_cast<float>(u / mean) : 0;
+    return uncertainty;
+}
+
+// One of three by weight, among those not buried.
+std::uint32_t pick(const Located& at, const std::vector<std::uint8_t>& buried, float u) {
+    float sum = 0;
+    glm::vec3 w = at.weights;
+    for (int k = 0; k < 3; ++k) sum += w[k] = buried[at.vertices[k]] ? 0 : std::max(0.0f, w[k]);
+    if (!(sum > 0)) return no_index;
+    u *= sum;
+    for (int k = 0; k < 2; ++k) {
+        if (u < w[k]) return at.vertices[k];
+        u -= w[k];
+    }
+    return w[2] > 0 ? at.vertices[2] : (w[1] > 0 ? at.vertices[1] : at.vertices[0]);
+}
+
+} // namespace
+
+void place_probes(const World& world, const Mesh& mesh, const DirectTransport& direct,
+                  const std::vector<std::uint8_t>& buried, std::uint32_t count, std::uint32_t seed,
+                  ErrorProbes& probes) {
+    probes = {};
+    const std::vector<float> uncertainty = direct_uncertainty(mesh, direct);
+    const std::vector<glm::vec3> origins = ray_origins(mesh, world.epsilon());
+    // Elements by area, and more of it where direct light is uncertain.
+    std::vector<double> area, density(mesh.elements.size(), 0);
+    double all = 0, uncertain = 0;
+    for (const glm::uvec3& e : mesh.elements) {
+        const glm::vec3 a = mesh.vertices[e.x].position;
+        area.push_back(
+            0.5 * double(glm::length(glm::cross(mesh.vertices[e.y].position - a, mesh.vertices[e.z].position - a))));
+        all += area.back();
+        uncertain += area.back() * double(uncertainty[e.x] + uncertainty[e.y] + uncertainty[e.z]);
+    }
+    if (!(all > 0)) return;
+    double sum = 0;
+    std::vector<double> until;
+    for (std::size_t e = 0; e < density.size(); ++e) {
+        const glm::uvec3& v = mesh.elements[e];
+        density[e] = 0.5 / all;
+        if (uncertain > 0)
+            density[e] += 0.5 * double(uncertainty[v.x] + uncertainty[v.y] + uncertainty[v.z]) / uncertain;
+        until.push_back(sum += area[e] * density[e]);
+    }
+    // Systematic sampling: as well spread over the list of elements, which is spread over the scene, as can be.
+    for (std::uint32_t k = 0; k < count; ++k) {
+        const std::uint32_t bits = hash(seed, k);
+        const double at = sum * (k + double(unit_float(bits))) / count;
+        const std::size_t e =
+            std::min<std::size_t>(std::upper_bound(until.begin(), until.end(), at) - until.begin(), until.size() - 1);
+        const glm::uvec3 v = mesh.elements[e];
+        const std::uint32_t more = hash(bits);
+        ErrorProbes::Point p{};
+        p.area = static_cast<float>(1 / (density[e] * count));
+        p.between = k % 2 == 1;
+        if (p.between) {
+            const glm::vec2 b = triangle_point({unit_float(more), unit_float(hash(more))});
+            p.vertices = v;
+            p.weights = {1 - b.x - b.y, b.x, b.y};
+            const glm::vec3 at_point = p.weights.x * mesh.vertices[v.x].position +
+                                       p.weights.y * mesh.vertices[v.y].position +
+                                       p.weights.z * mesh.vertices[v.z].position;
+            const glm::vec3 n = p.weights.x * mesh.vertices[v.x].normal + p.weights.y * mesh.vertices[v.y].normal +
+                                p.weights.z * mesh.vertices[v.z].normal;
+            p.normal = glm::dot(n, n) > 0 ? glm::normalize(n) : mesh.vertices[v.x].normal;
+            const glm::vec3 centre =
+                (mesh.vertices[v.x].position + mesh.vertices[v.y].position + mesh.vertices[v.z].position) / 3.0f;
+            p.origin = ray_origin(at_point, p.normal, centre, world.epsilon());
+        } else {
+            const std::uint32_t vertex = v[static_cast<int>(more % 3)];
+            p.vertices = glm::uvec3(vertex);
+            p.weights = {1, 0, 0};
+            p.normal = mesh.vertices[vertex].normal;
+            p.origin = origins[vertex];
+        }
+        // Inside a solid nobody looks, and the field there is made up.
+        if (p.between ? world.closest({p.origin, p.normal}).back_face || buried[v.x] + buried[v.y] + buried[v.z] == 3
+                      : buried[p.vertices.x] != 0)
+            continue;
+        probes.points.push_back(p);
+    }
+    probes.direct.assign(probes.points.size() * ErrorProbes::sets * direct.emitter_count(), 0);
+    probes.ends.assign(probes.points.size() * ErrorProbes::rays, static_cast<std::uint32_t>(mesh.vertices.size()));
+}
+
+bool trace_probes(const World& world, const Mesh& mesh, const DirectTransport& direct,
+                  const std::vector<std::uint8_t>& buried, std::uint32_t seed, const std::atomic<bool>& cancel,
+                  ErrorProbes& probes) {
+    const std::size_t emitters = direct.emitter_count();
+    constexpr int per_set = ErrorProbes::rays / ErrorProbes::sets;
+    return run_slice(
+        probes.cursor, static_cast<std::uint32_t>(probes.points.size()), 4, cancel,
+        [&](std::uint32_t first, std::uint32_t last) {
+            for (std::uint32_t i = first; i < last; ++i) {
+                const ErrorProbes::Point& p = probes.points[i];
+                const Frame frame(p.normal);
+                for (std::uint32_t set = 0; set < ErrorProbes::sets; ++set) {
+                    const std::uint32_t key = hash(hash(seed, 0x9e0b0000u + set), i);
+                    for (std::size_t l = 0; l < emitters; ++l)
+                        probes.direct[(std::size_t(i) * ErrorProbes::sets + set) * emitters + l] =
+                            direct_form_factor_sampled(world, direct.emitters()[l], p.origin, p.normal,
+                                                       ErrorProbes::shadow_rays / ErrorProbes::sets,
+                                                       random_offset(key, static_cast<std::uint32_t>(l) + 1));
+                    const glm::vec2 offset = random_offset(key, 0);
+                    for (std::uint32_t k = 0; k < per_set; ++k) {
+                        const Hit hit = world.closest({p.origin, frame.world(cosine_direction(r2_point(k, offset)))});
+                        if (hit.element == no_index) continue;
+                        const std::uint32_t end =
+                            pick(locate(mesh, hit.element, hit.b1, hit.b2), buried, unit_float(hash(key, k)));
+                        if (end != no_index) probes.ends[std::size_t(i) * ErrorProbes::rays + set * per_set + k] = end;
+                    }
+                }
+            }
+        });
+}
+
+} // namespace lueur

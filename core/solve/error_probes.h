@@ -1,0 +1,48 @@
+// Where a solution is asked whether it is right: points at vertices and between them, each with light gathered by rays
+// of its own.
+//
+// A probe's rays read the solution's own field, so that what they gather less what the field says there is the residual
+// of the radiosity equation at that point (an a posteriori estimate: Arvo, Torrance & Smits 1994, "A framework for the
+// analysis of error in global illumination algorithms"). Rays are traced once and kept, as the solver's are: asking
+// again after an edit costs no ray. Placed by geometry only, so that no edit of a lamp or a paint moves them.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <vector>
+
+#include "core/transport/direct_transport.h"
+#include "core/transport/mesh.h"
+#include "core/transport/world.h"
+
+namespace lueur {
+
+struct ErrorProbes {
+    struct Point {
+        glm::vec3 origin, normal;
+        glm::uvec3 vertices; // of a leaf, and what each counts; all the same for a probe at a vertex
+        glm::vec3 weights;
+        float area; // m^2 that it stands for: probes are denser where direct light is uncertain
+        bool between;
+    };
+    static constexpr int rays = 256, shadow_rays = 48; // a point; shadow rays a luminaire
+    static constexpr int sets = 2;                     // independent halves of both
+
+    std::vector<Point> points;
+    std::vector<float> direct;       // points * sets * emitters: D
+    std::vector<std::uint32_t> ends; // points * rays, set by set: the fine vertex each ray ends at, or their number
+    std::uint32_t cursor = 0;
+    bool complete() const { return !points.empty() && cursor == points.size(); }
+};
+
+// Chooses about `count` points on the mesh as it is now, half of them at vertices.
+void place_probes(const World& world, const Mesh& mesh, const DirectTransport& direct,
+                  const std::vector<std::uint8_t>& buried, std::uint32_t count, std::uint32_t seed,
+                  ErrorProbes& probes);
+
+// Traces them by one time slice; true at the end.
+bool trace_probes(const World& world, const Mesh& mesh, const DirectTransport& direct,
+                  const std::vector<std::uint8_t>& buried, std::uint32_t seed, const std::atomic<bool>& cancel,
+                  ErrorProbes& probes);
+
+} // namespace lueur

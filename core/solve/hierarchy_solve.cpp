@@ -1,0 +1,343 @@
+// Gather, push and pull, and what the links' errors come to.
+#include "core/solve/hierarchy.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+namespace lueur {
+
+namespace {
+
+constexpr double settled_share = 1e-3;   // of what the residual may still come to, 1 / (1 - rho) of it
+constexpr double least_residual = 1e-6;  // single precision has no more
+constexpr double coarse_residual = 0.02; // before the links are refined further
+constexpr std::uint32_t most_sweeps = 3000;
+constexpr std::uint32_t most_rounds = 20;
+constexpr std::uint32_t most_growing = 20; // sweeps in a row whose residual grows: the rows have too much energy
+
+void grow(ChannelField& field, std::uint32_t count, int channels) {
+    if (field.values.empty()) field = ChannelField(count, channels);
+    field.count = count;
+    field.values.resize(std::size_t(count) * static_cast<std::size_t>(field.stride), 0.0f);
+}
+
+} // namespace
+
+void Hierarchy::resize_values() {
+    const std::uint32_t count = static_cast<std::uint32_t>(tree_.nodes.size());
+    const std::uint32_t before = total_.count;
+    for (ChannelField* field : {&source_, &gathered_, &total_, &b_}) grow(*field, count, channels_);
+    for (auto* values : {&scale_, &row_sum_, &leaf_error_, &brightness_, &brightness_spread_, &direct_brightness_})
+        values->resize(count, 0);
+    std::fill(scale_.begin() + before, scale_.end(), 1.0f);
+    if (direct_) {
+        direct_mean_.resize(std::size_t(count) * emitters_, 0);
+        direct_spread_.resize(std::size_t(count) * emitters_, 0);
+    }
+    // What a node is cut into has its light until the next sweep.
+    for (std::uint32_t n = before; n < count; ++n) {
+        const std::uint32_t parent = tree_.nodes[n].parent;
+        if (parent == no_index || tree_.nodes[n].level == 0) continue;
+        std::copy_n(total_[parent], total_.stride, total_[n]);
+        scale_[n] = scale_[parent];
+    }
+}
+
+float Hierarchy::bright(const float* channels) const {
+    float sum = 0;
+    for (std::size_t c = 0; c < sources_.weight.size(); ++c) sum += sources_.weight[c] * channels[c];
+    return sum;
+}
+
+// E, or what the surface sends on of direct light; and B with the light there is so far.
+void Hierarchy::set_leaf_source(std::uint32_t n) {
+    const ElementNode& node = tree_.nodes[n];
+    const auto& rho = sources_.material_rho[sources_.surface_material[node.surface]];
+    float* source = source_[n];
+    std::fill_n(source, source_.stride, 0.0f);
+    float spread = 0;
+    direct_brightness_[n] = 0;
+    if (direct_) {
+        std::vector<float> of_spread(static_cast<std::size_t>(source_.stride), 0.0f);
+        for (std::size_t l = 0; l < emitters_; ++l) {
+            const float mean = direct_mean_[std::size_t(n) * emitters_ + l];
+            const float sd = direct_spread_[std::size_t(n) * emitters_ + l];
+            if (mean == 0 && sd == 0) continue;
+            for (std::size_t c = 0; c < sources_.weight.size(); ++c)
+                direct_brightness_[n] +=
+                    static_cast<float>(double(mean) * double(sources_.weight[c]) * sources_.luminaire_exitance[l][c]);
+            for (int c = 0; c < channels_; ++c) {
+                const float sent = static_cast<float>(rho[static_cast<std::size_t>(c)] *
+                                                      sources_.luminaire_exitance[l][static_cast<std::size_t>(c)]);
+                source[c] += sent * mean;
+                of_spread[static_cast<std::size_t>(c)] += sent * sd;
+            }
+        }
+        spread = bright(of_spread.data());
+    } else {
+        std::uint32_t root = n;
+        while (tree_.nodes[root].level > 0) root = tree_.nodes[root].parent;
+        if (const auto luminaire = sources_.root_luminaire[root])
+            for (int c = 0; c < channels_; ++c)
+                source[c] = static_cast<float>(sources_.luminaire_exitance[*luminaire][static_cast<std::size_t>(c)]);
+    }
+    if (points_[n].count == 0) std::fill_n(source, source_.stride, 0.0f); // inside a solid
+    for (int c = 0; c < channels_; ++c)
+        b_[n][c] = source[c] + static_cast<float>(rho[static_cast<std::size_t>(c)]) * total_[n][c] * scale_[n];
+    brightness_[n] = bright(b_[n]);
+    brightness_spread_[n] = spread;
+}
+
+void Hierarchy::set_sources(HierarchySources sources) {
+    const int channels = sources.material_rho.empty() ? 1 : static_cast<int>(sources.material_rho[0].size());
+    const bool other_channels = channels != channels_;
+    sources_ = std::move(sources);
+    channels_ = channels;
+    if (other_channels)
+        for (ChannelField* field : {&source_, &gathered_, &total_, &b_}) *field = ChannelField();
+    if (phase_ == Phase::failed && tree_.root_count > 0 && rounds_ == 0) return; // refused
+    points_.resize(tree_.nodes.size());
+    resize_values();
+    extrapolation_.assign(static_cast<std::size_t>(channels_), 0);
+    change_before_.assign(static_cast<std::size_t>(channels_), 0);
+    ratio_before_ = change_before_;
+    sweeps_since_ = 0;
+    emitted_flux_ = mean_rho_ = 0;
+    double area = 0, white = 0;
+    for (const float w : sources_.weight) white += double(w);
+    for (std::uint32_t r = 0; r < tree_.root_count; ++r) {
+        const auto& rho = sources_.material_rho[sources_.surface_material[tree_.nodes[r].surface]];
+        double y = 0, e = 0;
+        for (std::size_t c = 0; c < sources_.weight.size(); ++c) {
+            y += double(sources_.weight[c]) * rho[c];
+            if (const auto l = sources_.root_luminaire[r])
+                e += double(sources_.weight[c]) * sources_.luminaire_exitance[*l][c];
+        }
+        mean_rho_ += y / std::max(white, 1e-30) * double(tree_.nodes[r].area);
+        area += double(tree_.nodes[r].area);
+        emitted_flux_ += e * double(tree_.nodes[r].area);
+    }
+    mean_rho_ = area > 0 ? mean_rho_ / area : 0;
+    // Calibrated on the Cornell box: the tolerance at which the irradiance is off by about target_error.
+    if (settings_.tolerance > 0) {
+        final_tolerance_ = settings_.tolerance;
+    } else {
+        switch (settings_.oracle) {
+        case RefinementOracle::form_factor:
+            final_tolerance_ = std::max(1e-4, settings_.target_error);
+            break;
+        case RefinementOracle::flux:
+            final_tolerance_ = std::max(1e-8, 0.002 * settings_.target_error);
+            break;
+        case RefinementOracle::error:
+            final_tolerance_ = 1e-7;
+            break;
+        }
+    }
+    sweeps_of_round_ = growing_ = rounds_of_solve_ = 0;
+    cut_any_ = true; // other light asks for other links
+    if (!begun_) {
+        looked_ = 0; // what was looked at may have had other channels
+        phase_ = Phase::look;
+        return;
+    }
+    for (std::uint32_t n = 0; n < tree_.nodes.size(); ++n)
+        if (!tree_.nodes[n].is_cluster()) set_leaf_source(n);
+    push_and_pull(true);
+    if (phase_ == Phase::sweep || phase_ == Phase::settled || phase_ == Phase::failed) phase_ = Phase::sweep;
+}
+
+// Links by receiver, and what their form factors sum to.
+void Hierarchy::end_round() {
+    const std::size_t nodes = tree_.nodes.size();
+    first_link_.assign(nodes + 1, 0);
+    for (const Link& link : kept_) ++first_link_[link.receiver + 1];
+    for (std::size_t n = 0; n < nodes; ++n) first_link_[n + 1] += first_link_[n];
+    links_.resize(kept_.size());
+    std::vector<std::uint32_t> next(first_link_.begin(), first_link_.end() - 1);
+    for (const Link& link : kept_) links_[next[link.receiver]++] = link;
+    kept_.clear();
+    work_.clear();
+    sum_rows();
+    sweeps_of_round_ = growing_ = 0;
+    residual_ = last_residual_ = 1;
+    std::fill(extrapolation_.begin(), extrapolation_.end(), 0.0f);
+    sweeps_since_ = 0;
+    phase_ = Phase::sweep;
+}
+
+void Hierarchy::sum_rows() {
+    tree_.parents_first([&](std::uint32_t n) {
+        const ElementNode& node = tree_.nodes[n];
+        float sum = node.parent == no_index ? 0 : row_sum_[node.parent];
+        for (std::uint32_t l = first_link_[n]; l < first_link_[n + 1]; ++l) sum += links_[l].form_factor;
+        row_sum_[n] = sum;
+        scale_[n] = 1;
+        if (settings_.oracle != RefinementOracle::error || !(sum > 0)) return;
+        // What looks at lit surfaces only gets exactly what they send: a row of 1. None gets more.
+        if (node.closed || sum > 1) scale_[n] = 1 / sum;
+    });
+}
+
+// H_r = sum F_rs B_s over the links of each node (correction 39), then push and pull.
+void Hierarchy::sweep() {
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, gathered_.count, 64),
+                      [&](const tbb::blocked_range<std::uint32_t>& range) {
+                          const int stride = b_.stride;
+                          for (std::uint32_t n = range.begin(); n < range.end(); ++n) {
+                              float* h = gathered_[n];
+                              std::fill_n(h, stride, 0.0f);
+                              for (std::uint32_t l = first_link_[n]; l < first_link_[n + 1]; ++l) {
+                                  const float f = links_[l].form_factor;
+                                  const float* b = b_[links_[l].source];
+                                  for (int c = 0; c < stride; ++c) h[c] += f * b[c];
+                              }
+                          }
+                      });
+    push_and_pull(false);
+    ++sweeps_;
+    ++sweeps_of_round_;
+    growing_ = residual_ > last_residual_ ? growing_ + 1 : 0;
+    last_residual_ = residual_;
+    if (!std::isfinite(residual_) || growing_ > most_growing || sweeps_of_round_ > most_sweeps) {
+        failure_ = "hierarchical radiosity does not converge on this scene: its rows reflect as much as they receive";
+        phase_ = Phase::failed;
+        return;
+    }
+    const double settled_residual = std::max(least_residual, settled_share * (1 - mean_rho_));
+    const bool last_round = limited_ || !is_next_tolerance_finer();
+    if (residual_ > (last_round ? settled_residual : std::max(coarse_residual * (1 - mean_rho_), settled_residual)))
+        return;
+    measure_errors();
+    if (limited_ || rounds_of_solve_ >= most_rounds) {
+        phase_ = residual_ <= settled_residual ? Phase::settled : Phase::sweep;
+        return;
+    }
+    const bool good = settings_.oracle == RefinementOracle::error && settings_.tolerance == 0 &&
+                      estimated_error_ <= settings_.target_error;
+    if (good || (last_round && !cut_any_) || (settings_.oracle == RefinementOracle::form_factor)) {
+        phase_ = residual_ <= settled_residual ? Phase::settled : Phase::sweep;
+        return;
+    }
+    if (!last_round) tolerance_ = std::max(final_tolerance_, tolerance_ / 2);
+    begin_round();
+    phase_ = Phase::refine;
+}
+
+bool Hierarchy::is_next_tolerance_finer() {
+    return settings_.oracle != RefinementOracle::form_factor && tolerance_ > final_tolerance_ * 1.0001;
+}
+
+// Irradiance, not radiosity, goes down (correction 41): children may have paints of their own.
+void Hierarchy::push_and_pull(bool sources_only) {
+    std::vector<double> change(static_cast<std::size_t>(channels_), 0), norm(static_cast<std::size_t>(channels_), 0);
+    double light = 0, area = 0;
+    tree_.parents_first([&](std::uint32_t n) {
+        const ElementNode& node = tree_.nodes[n];
+        if (!sources_only) {
+            const float* from = node.parent == no_index ? nullptr : total_[node.parent];
+            for (int c = 0; c < channels_; ++c) total_[n][c] = gathered_[n][c] + (from ? from[c] : 0);
+        }
+        if (!node.is_leaf() || node.is_cluster()) return;
+        const auto& rho = sources_.material_rho[sources_.surface_material[node.surface]];
+        const bool buried = points_[n].count == 0;
+        for (int c = 0; c < channels_; ++c) {
+            const auto k = static_cast<std::size_t>(c);
+            const float b = buried ? 0 : source_[n][c] + static_cast<float>(rho[k]) * total_[n][c] * scale_[n];
+            const float step = b - b_[n][c];
+            change[k] += double(node.live_area()) * double(step) * double(step);
+            norm[k] += double(node.live_area()) * double(b) * double(b);
+            b_[n][c] = std::max(0.0f, b + extrapolation_[k] * step);
+        }
+        brightness_[n] = bright(b_[n]);
+        light +=
+            double(node.live_area()) * (double(bright(total_[n])) * double(scale_[n]) + double(direct_brightness_[n]));
+        area += double(node.live_area());
+    });
+    mean_irradiance_ = area > 0 ? light / area : 0;
+    residual_ = 0;
+    for (std::size_t c = 0; c < change.size(); ++c) {
+        change[c] = norm[c] > 0 ? std::sqrt(change[c] / norm[c]) : 0;
+        residual_ = std::max(residual_, change[c]);
+    }
+    if (!sources_only) extrapolate(change);
+    tree_.children_first([&](std::uint32_t n) {
+        const ElementNode& node = tree_.nodes[n];
+        if (node.is_leaf()) return;
+        double whole = 0;
+        for (const std::uint32_t child : node.children)
+            if (child != no_index) whole += double(tree_.nodes[child].live_area());
+        float* b = b_[n];
+        std::fill_n(b, b_.stride, 0.0f);
+        brightness_[n] = 0;
+        double square = 0;
+        for (const std::uint32_t child : node.children) {
+            if (child == no_index || !(whole > 0)) continue;
+            const float share = static_cast<float>(double(tree_.nodes[child].live_area()) / whole);
+            for (int c = 0; c < channels_; ++c) b[c] += share * b_[child][c];
+            brightness_[n] += share * brightness_[child];
+            square += double(share) * (double(brightness_spread_[child]) * brightness_spread_[child] +
+                                       double(brightness_[child]) * brightness_[child]);
+        }
+        brightness_spread_[n] =
+            static_cast<float>(std::sqrt(std::max(0.0, square - double(brightness_[n]) * brightness_[n])));
+    });
+}
+
+// Sweeps by Jacobi approach the end along one direction, by the same ratio each; once the ratio stands, the rest of the
+// way is a geometric series (Lyusternik 1947), and the next sweep goes it at once. Without this a white room takes a
+// thousand.
+void Hierarchy::extrapolate(const std::vector<double>& change) {
+    constexpr std::uint32_t sweeps_between = 4;
+    const bool had = std::any_of(extrapolation_.begin(), extrapolation_.end(), [](float e) { return e > 0; });
+    ++sweeps_since_;
+    if (had) sweeps_since_ = 0;
+    for (std::size_t c = 0; c < change.size(); ++c) {
+        const double ratio = change_before_[c] > 0 ? change[c] / change_before_[c] : 0;
+        const bool stands = ratio > 0.3 && ratio < 1 - 1e-6 && std::abs(ratio - ratio_before_[c]) < 0.1 * (1 - ratio);
+        extrapolation_[c] = sweeps_since_ >= sweeps_between && stands ? static_cast<float>(ratio / (1 - ratio)) : 0.0f;
+        ratio_before_[c] = ratio;
+        change_before_[c] = change[c];
+    }
+}
+
+bool Hierarchy::absorbs_nothing() const {
+    for (std::uint32_t n = 0; n < tree_.nodes.size(); ++n) {
+        const ElementNode& node = tree_.nodes[n];
+        if (!node.is_leaf() || node.is_cluster() || points_[n].count == 0) continue;
+        if (!node.closed) return false;
+        for (const double rho : sources_.material_rho[sources_.surface_material[node.surface]])
+            if (rho < 1 - 1e-7) return false;
+    }
+    return emitted_flux_ > 0;
+}
+
+void Hierarchy::measure_errors() {
+    std::vector<float> square(tree_.nodes.size(), 0), sum(tree_.nodes.size(), 0);
+    double errors = 0, bounds = 0, light = 0, mean = 0;
+    tree_.parents_first([&](std::uint32_t n) {
+        const ElementNode& node = tree_.nodes[n];
+        if (node.parent != no_index) square[n] = square[node.parent], sum[n] = sum[node.parent];
+        for (std::uint32_t l = first_link_[n]; l < first_link_[n + 1]; ++l) {
+            const Link& link = links_[l];
+            const float e = brightness_[link.source] * link.spread + link.form_factor * brightness_spread_[link.source];
+            square[n] += e * e, sum[n] += e;
+        }
+        if (!node.is_leaf() || node.is_cluster()) return;
+        leaf_error_[n] = std::sqrt(square[n]);
+        const double h = double(bright(total_[n])) * double(scale_[n]) + double(direct_brightness_[n]);
+        const double area = double(node.live_area());
+        errors += area * double(square[n]);
+        bounds += area * double(sum[n]);
+        light += area * h * h;
+        mean += area * h;
+    });
+    const double absorbed = std::max(1e-3, 1 - mean_rho_);
+    estimated_error_ = light > 0 ? std::min(1.0, std::sqrt(errors / light) + residual_ / absorbed) : 0;
+    error_bound_ = mean > 0 ? bounds / mean / absorbed + residual_ / absorbed : 0;
+}
+
+} // namespace lueur

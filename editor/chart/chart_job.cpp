@@ -1,0 +1,89 @@
+#include "editor/chart/chart_job.h"
+
+#include <chrono>
+#include <exception>
+#include <utility>
+
+#ifdef __linux__
+#include <sys/resource.h>
+#include <unistd.h>
+#endif
+
+#include <tbb/task_arena.h>
+
+namespace lueur {
+
+ChartJob::ChartJob(std::function<void()> wake)
+    : wake_(std::move(wake)) {}
+
+ChartJob::~ChartJob() {
+    cancel();
+    if (thread_.joinable()) thread_.join();
+}
+
+void ChartJob::cancel() {
+    cancel_.store(true);
+}
+
+void ChartJob::start(std::shared_ptr<const Scene> scene, ChartParams params) {
+    cancel();
+    if (thread_.joinable()) thread_.join();
+    cancel_.store(false);
+    {
+        const std::lock_guard lock(mutex_);
+        view_ = {true, 0, {}, scene, nullptr};
+    }
+    thread_ = std::jthread([this, scene = std::move(scene), params = std::move(params)] { run(scene, params); });
+}
+
+ChartJob::View ChartJob::view() const {
+    const std::lock_guard lock(mutex_);
+    return view_;
+}
+
+void ChartJob::run(std::shared_ptr<const Scene> scene, const ChartParams& params) {
+    using Clock = std::chrono::steady_clock;
+#ifdef __linux__
+    setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 10); // the window comes first; refused is no harm
+#endif
+    std::size_t published = 0;
+    Clock::time_point last{};
+    const auto progress = [&](double share, const std::string& what, const MethodChart& so_far) {
+        const std::size_t done = so_far.runs.empty() ? 0 : so_far.runs.size() - 1; // the last is running
+        if (done == published && Clock::now() - last < std::chrono::milliseconds(100)) return;
+        last = Clock::now();
+        std::shared_ptr<MethodChart> chart;
+        if (done != published) {
+            chart = std::make_shared<MethodChart>(so_far);
+            chart->runs.pop_back();
+            published = done;
+        }
+        {
+            const std::lock_guard lock(mutex_);
+            view_.share = share;
+            view_.what = what;
+            if (chart) view_.chart = std::move(chart);
+        }
+        if (wake_) wake_();
+    };
+    std::shared_ptr<const MethodChart> chart;
+    std::string what;
+    try {
+        tbb::task_arena arena;
+        MethodChart made = arena.execute([&] { return run_chart(*scene, params, cancel_, progress); });
+        if (made.points == 0 && !cancel_) what = "the scene has no lit surface to measure on";
+        if (!made.runs.empty()) chart = std::make_shared<const MethodChart>(std::move(made));
+    } catch (const std::exception& error) {
+        what = error.what();
+    }
+    {
+        const std::lock_guard lock(mutex_);
+        view_.running = false;
+        view_.share = 1;
+        view_.what = what;
+        if (chart) view_.chart = std::move(chart);
+    }
+    if (wake_) wake_();
+}
+
+} // namespace lueur

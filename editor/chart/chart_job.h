@@ -1,0 +1,47 @@
+// A chart of methods in the making, on a thread of its own, for a window that goes on.
+//
+// Threads: every member may be called from any one thread at a time; none waits for the runs but the destructor and
+// start(), which wait for a step (<= 10 ms) of what is being cancelled.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "editor/chart/run_chart.h"
+
+namespace lueur {
+
+class ChartJob {
+public:
+    explicit ChartJob(std::function<void()> wake); // called from the thread when there is something new, at most 10 a s
+    ~ChartJob();                                   // cancels
+    ChartJob(const ChartJob&) = delete;
+    ChartJob& operator=(const ChartJob&) = delete;
+
+    void start(std::shared_ptr<const Scene> scene, ChartParams params); // cancels what is running
+    void cancel();                                                      // keeps the runs that are done
+
+    struct View {
+        bool running = false;
+        double share = 0; // 0..1
+        std::string what; // is being run; or why there is no chart
+        std::shared_ptr<const Scene> scene;
+        std::shared_ptr<const MethodChart> chart; // finished runs only; null: none yet
+    };
+    View view() const;
+
+private:
+    void run(std::shared_ptr<const Scene> scene, const ChartParams& params);
+
+    const std::function<void()> wake_;
+    std::atomic<bool> cancel_{false};
+    mutable std::mutex mutex_;
+    View view_; // under the mutex
+    std::jthread thread_;
+};
+
+} // namespace lueur

@@ -1,0 +1,134 @@
+// What the estimate of an error is worth: against traced paths at vertices and points of a solution's mesh.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include <tbb/parallel_for.h>
+
+#include "core/solve/path_tracer.h"
+#include "core/solve/solution_state.h"
+#include "core/transport/sampling.h"
+#include "tests/support/surface_points.h"
+
+namespace lueur::test {
+
+struct TruePoint {
+    std::uint32_t vertex = no_index; // or a point between vertices:
+    glm::vec3 position{0}, normal{0};
+    double illuminance = 0, standard_error = 0; // lx, of paths
+};
+
+// `count` vertices of the first `vertices` of a mesh, chosen by area, and as many paths at each; buried ones never.
+inline std::vector<TruePoint> true_vertices(const Solution& solution, bool coarse, int count, int paths,
+                                            std::uint32_t seed) {
+    const Solution::State& s = solution.state();
+    const std::vector<std::uint8_t> buried = s.all_buried();
+    std::vector<float> area = coarse ? s.coarse_area : vertex_areas(s.mesh);
+    for (std::size_t v = 0; v < area.size(); ++v)
+        if (buried[v]) area[v] = 0;
+    std::mt19937 random(seed);
+    std::discrete_distribution<std::uint32_t> choose(area.begin(), area.end());
+    const std::vector<glm::vec3> origins = ray_origins(s.mesh, s.world->epsilon());
+    const PathLights lights = make_path_lights(s);
+    const std::atomic<bool> never{false};
+    std::vector<TruePoint> points(static_cast<std::size_t>(count));
+    for (TruePoint& p : points) p.vertex = choose(random);
+    tbb::parallel_for(std::size_t(0), points.size(), [&](std::size_t i) {
+        const glm::vec3 normal = s.mesh.vertices[points[i].vertex].normal;
+        const PathEstimate e = trace_irradiance(s, lights, origins[points[i].vertex], normal, paths,
+                                                hash(seed, static_cast<std::uint32_t>(i)), never);
+        points[i].illuminance = e.illuminance, points[i].standard_error = e.standard_error;
+    });
+    return points;
+}
+
+inline std::vector<TruePoint> true_surface_points(const Solution& solution, int count, int paths, std::uint32_t seed) {
+    const Solution::State& s = solution.state();
+    const std::vector<MeasurePoint> chosen = surface_points(solution, count, seed);
+    const PathLights lights = make_path_lights(s);
+    const std::atomic<bool> never{false};
+    std::vector<TruePoint> points(chosen.size());
+    tbb::parallel_for(std::size_t(0), points.size(), [&](std::size_t i) {
+        points[i].position = chosen[i].position, points[i].normal = chosen[i].normal;
+        const PathEstimate e =
+            trace_irradiance(s, lights, points[i].position + s.world->epsilon() * points[i].normal, points[i].normal,
+                             paths, hash(seed, static_cast<std::uint32_t>(i)), never);
+        points[i].illuminance = e.illuminance, points[i].standard_error = e.standard_error;
+    });
+    return points;
+}
+
+struct ErrorVerdict {
+    double truth = 0;     // relative RMS error, the variance of the paths subtracted
+    double estimate = 0;  // relative RMS of what the field says
+    double covered = 0;   // share of true values within the stated 95 % interval
+    double reference = 0; // relative RMS standard error of the paths
+    double worst = 0;     // of the true errors
+    glm::vec3 worst_at{0};
+    int counted = 0;
+    double ratio() const { return estimate > 0 ? truth / estimate : (truth > 0 ? 1e9 : 1); }
+};
+
+// Vertices that the field does not have yet are left out.
+inline ErrorVerdict judge_vertices(const Field& field, const std::vector<TruePoint>& points) {
+    double mean = 0;
+    for (const TruePoint& p : points) mean += p.illuminance / double(points.size());
+    ErrorVerdict verdict;
+    int covered = 0;
+    for (const TruePoint& p : points) {
+        if (p.vertex >= field.irradiance_xyz.size() || !(p.illuminance > 0.02 * mean)) continue;
+        const double error = double(field.irradiance_xyz[p.vertex].y) - p.illuminance, sigma = field.error[p.vertex],
+                     square = p.illuminance * p.illuminance;
+        verdict.truth += (error * error - p.standard_error * p.standard_error) / square;
+        verdict.estimate += sigma * sigma / square;
+        verdict.reference += p.standard_error * p.standard_error / square;
+        covered += std::abs(error) <= std::hypot(field.interval_factor * sigma, 2.13 * p.standard_error);
+        ++verdict.counted;
+    }
+    const double n = std::max(1, verdict.counted);
+    verdict.truth = std::sqrt(std::max(0.0, verdict.truth / n));
+    verdict.estimate = std::sqrt(verdict.estimate / n);
+    verdict.reference = std::sqrt(verdict.reference / n);
+    verdict.covered = covered / n;
+    return verdict;
+}
+
+// The scene's one number against points anywhere on its surfaces, interpolation included.
+inline ErrorVerdict judge_scene(const Solution& solution, const Field& field, const std::vector<TruePoint>& points) {
+    const Solution::State& s = solution.state();
+    double mean = 0;
+    for (const TruePoint& p : points) mean += p.illuminance / double(points.size());
+    ErrorVerdict verdict;
+    verdict.estimate = field.scene_error;
+    const float reach = 500 * s.world->epsilon();
+    int covered = 0;
+    for (const TruePoint& p : points) {
+        const Hit hit = s.world->closest({p.position + reach * p.normal, -p.normal, 0, 2 * reach});
+        if (hit.element == no_index || !(p.illuminance > 0.02 * mean)) continue;
+        const Located at = locate(s.mesh, hit.element, hit.b1, hit.b2);
+        double value = 0, variance = 0;
+        for (int k = 0; k < 3; ++k) {
+            const std::uint32_t v = at.vertices[k];
+            value += double(at.weights[k]) * field.irradiance_xyz[v].y;
+            variance += double(at.weights[k]) * (double(field.error[v]) * field.error[v] +
+                                                 double(field.interpolation_error[v]) * field.interpolation_error[v]);
+        }
+        const double error = value - p.illuminance, square = p.illuminance * p.illuminance;
+        verdict.truth += (error * error - p.standard_error * p.standard_error) / square;
+        verdict.reference += p.standard_error * p.standard_error / square;
+        covered += std::abs(error) <= std::hypot(field.interval_factor * std::sqrt(variance), 2.13 * p.standard_error);
+        if (std::abs(error) / p.illuminance > verdict.worst)
+            verdict.worst = std::abs(error) / p.illuminance, verdict.worst_at = p.position;
+        ++verdict.counted;
+    }
+    const double n = std::max(1, verdict.counted);
+    verdict.truth = std::sqrt(std::max(0.0, verdict.truth / n));
+    verdict.reference = std::sqrt(verdict.reference / n);
+    verdict.covered = covered / n;
+    return verdict;
+}
+
+} // namespace lueur::test
