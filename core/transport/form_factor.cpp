@@ -141,9 +141,11 @@ FormFactorEstimate form_factor(const PlanarPolygon& from, const PlanarPolygon& t
         if (result.warning.empty() && result.method == FormFactorMethod::analytic && !pair.may_be_occluded() &&
             result.standard_error > 1e-6 * result.value)
             result.warning = "so flat or so far apart that rounding leaves less than six digits";
-        if (result.warning.empty() && result.value <= 0 && result.standard_error > 0)
-            result.warning = fmt::format("nothing was seen of the patch: up to {:.1g} is possible", result.standard_error);
-        else if (result.warning.empty() && result.standard_error > 0.2 * result.value)
+        // A pair that is hidden altogether is nothing to warn of.
+        if (result.value <= 0 && result.standard_error > 0 && !pair.may_be_occluded() && result.warning.empty())
+            result.warning =
+                fmt::format("nothing was seen of the patch: up to {:.1g} is possible", result.standard_error);
+        else if (result.warning.empty() && result.value > 0 && result.standard_error > 0.2 * result.value)
             result.warning =
                 fmt::format("its own error estimate is {:.0f} % of the value: more samples or analytic are needed",
                             100 * result.standard_error / result.value);

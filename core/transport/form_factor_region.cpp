@@ -13,8 +13,9 @@ namespace {
 
 double element_size(const PlanarPolygon& polygon, int count) {
     double most = 0;
-    for (const SubElement& element : sub_elements(polygon, count)) most = std::max(most, element.size);
-    return most;
+    const int few = std::min(count, 256); // of more, all are alike
+    for (const SubElement& element : sub_elements(polygon, few)) most = std::max(most, element.size);
+    return most * std::sqrt(double(few) / count);
 }
 
 double narrowest(const PolygonPair& pair) {

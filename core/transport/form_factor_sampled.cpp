@@ -137,7 +137,8 @@ MethodEstimate area_sampled(const PolygonPair& pair, const FormFactorSettings& s
 MethodEstimate monte_carlo(const PolygonPair& pair, const FormFactorSettings& settings) {
     RandomStream random(settings.seed, 0);
     double sum = 0, squares = 0, most = 0;
-    for (int k = 0; k < settings.samples; ++k) {
+    int taken = 0;
+    for (int k = 0; k < settings.samples; ++k, ++taken) {
         if (k % 4096 == 0 && settings.is_cancelled()) break;
         const glm::dvec3 x = polygon_point(pair.from, random.next2()), y = polygon_point(pair.to, random.next2());
         double f = pair.to.area * disk_kernel(pair, x, y, 0);
@@ -146,16 +147,17 @@ MethodEstimate monte_carlo(const PolygonPair& pair, const FormFactorSettings& se
         squares += f * f;
         most = std::max(most, f);
     }
-    const double n = settings.samples, mean = sum / n;
+    const double n = std::max(1, taken), mean = sum / n;
     const double variance = n > 1 ? std::max(0.0, squares - n * mean * mean) / (n - 1) : 0;
     if (n < 2) return {mean, -1, 1};
     // Near a common edge f exceeds K with a probability as K^(-3/2): what lies beyond the largest of n is twice that
     // one's share, and no variance of the sample knows of it. Where f is bounded it is small.
     double beyond = 2 * most / n;
-    // And what no pair has found yet: the most that one can add, of all that j can send to i.
-    if (const double apart = distance(pair.from, pair.to); apart > 0)
-        beyond = std::max(beyond, std::min(pair.to.area / (pi * apart * apart * n), pair.to.area / pair.from.area));
-    return {mean, std::sqrt(variance / n) + beyond, static_cast<std::uint64_t>(settings.samples)};
+    // Where one pair may outweigh all others (as region_warning has it), none of those may have been found yet.
+    const double apart = distance(pair.from, pair.to), most_share = pair.to.area / (pi * apart * apart * n),
+                 whole = std::min(1.0, pair.to.area / pair.from.area);
+    if (apart > 0 && most_share > 0.1 * whole) beyond = std::max(beyond, std::min(most_share, whole));
+    return {mean, std::sqrt(variance / n) + beyond, static_cast<std::uint64_t>(taken)};
 }
 
 MethodEstimate analytic(const PolygonPair& pair, const FormFactorSettings& settings) {

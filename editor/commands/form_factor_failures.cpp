@@ -149,9 +149,9 @@ int write_form_factor_failures(const FormFactorsCommand& command, BatchSession& 
     }
     const auto pictures = form_factor_pictures(settings, session);
     if (!pictures) return exit_interrupted;
-    for (const auto& [name, text] : {std::pair<const char*, const std::string&>{"failures.csv", csv},
-                                     {"failures.svg", pictures->failures},
-                                     {"aliasing.svg", pictures->aliasing}})
+    for (const auto& [name, text] : {std::pair<const char*, const std::string&>{"form_factor_failures.csv", csv},
+                                     {"form_factor_failures.svg", pictures->failures},
+                                     {"form_factor_aliasing.svg", pictures->aliasing}})
         if (const auto written = write_text(folder / name, text); !written) return session.failed(written.error());
     session.bar().wipe();
     fmt::print("{}", table);

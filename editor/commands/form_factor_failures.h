@@ -16,7 +16,8 @@ struct TrueFormFactor {
 };
 TrueFormFactor true_form_factor(const FormFactorCase& one, const std::atomic<bool>* cancel);
 
-// Writes failures.csv, failures.svg and aliasing.svg into the folder command.output; the exit status.
+// Writes form_factor_failures.csv, form_factor_failures.svg and form_factor_aliasing.svg into the folder
+// command.output; the exit status.
 int write_form_factor_failures(const FormFactorsCommand& command, BatchSession& session);
 
 } // namespace lueur

@@ -15,7 +15,8 @@ constexpr const char* footer =
 polygons, each facing the side from which its vertices run counter-clockwise; other keys are ignored.
 OUT.json: a list of {"name","method","F12","standard_error","seconds","warning","cost"}, one entry a case and method.
 standard_error is null where the method has none; for methods without chance it is a bound. F21 = F12 A1 / A2.
---failures: failures.csv, failures.svg and aliasing.svg in the folder OUT, and the table on the terminal.)";
+--failures: form_factor_failures.csv, form_factor_failures.svg and form_factor_aliasing.svg in the folder OUT, and the
+table on the terminal.)";
 
 std::string method_words() {
     return words_of(all_form_factor_methods) + ", all";

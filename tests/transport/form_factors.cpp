@@ -372,6 +372,39 @@ TEST(FormFactorRow, SumsToOneInAClosedRoom) {
         }
 }
 
+// Walls, a block on the floor, lamps under the ceiling: some pairs are hidden, some in part.
+TEST(FormFactorRow, SumsToOneAroundABlock) {
+    const Mesh mesh = make_mesh(test::small_room(), {0.8});
+    const World world(mesh);
+    const PatchScene scene = make_element_scene(mesh, world);
+    std::vector<float> row(scene.size());
+    // Patches buried under the block see it from inside: their rows say nothing.
+    std::uint32_t ceiling = 0;
+    while (scene.patches[ceiling].normal.y > -0.9 || centre(scene.patches[ceiling]).y < 2.49) ++ceiling;
+    for (const FormFactorMethod method : all_form_factor_methods) {
+        FormFactorCost cost;
+        form_factor_row(scene, ceiling, method, row_settings(method, 0, 1), row, cost);
+        double sum = 0;
+        for (const float f : row) {
+            EXPECT_TRUE(f >= 0 && f <= 1) << to_string(method);
+            sum += f;
+        }
+        EXPECT_NEAR(sum, 1, method == FormFactorMethod::monte_carlo ? 0.3 : 0.06) << to_string(method);
+    }
+}
+
+TEST(FormFactor, EndsSoonWhenCancelled) {
+    const std::atomic<bool> cancelled{true};
+    FormFactorSettings settings;
+    settings.cancel = &cancelled;
+    settings.samples = 1 << 16;
+    for (const FormFactorMethod method : sampled_methods) {
+        const FormFactorEstimate found = estimate(opposed(1), method, settings);
+        EXPECT_TRUE(std::isfinite(found.value)) << to_string(method);
+        EXPECT_LT(found.cost, 100u) << to_string(method);
+    }
+}
+
 // A two-sided sheet across a box: each patch sees one side of it, and nothing through it.
 TEST(FormFactorRow, TheOtherSideOfASheetIsAnotherPatch) {
     test::SceneBuilder b;
