@@ -1,4 +1,5 @@
-// Unshot flux and estimated error against solve time, on a logarithmic axis with a line at each decade.
+// Unshot flux and estimated error against solve time, on a logarithmic axis with a line at each decade; under them, as
+// thin lines, the unshot flux of the solvers that ran before on this scene.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -6,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "ui/panels.h"
+#include "ui/solver_rows.h"
 #include "ui/widgets.h"
 
 namespace lueur {
@@ -29,6 +31,12 @@ std::string time_text(double seconds, double step) {
     return fmt::format("{:.{}f}", seconds, decimals);
 }
 
+const ImVec4& past_colour(std::size_t number) {
+    static const ImVec4 all[] = {{0.56f, 0.80f, 0.47f, 1}, {0.80f, 0.55f, 0.82f, 1}, {0.45f, 0.62f, 0.95f, 1},
+                                 {0.90f, 0.80f, 0.45f, 1}, {0.92f, 0.52f, 0.50f, 1}, {0.45f, 0.80f, 0.78f, 1}};
+    return all[number % std::size(all)];
+}
+
 std::string percent_text(double share) {
     return short_number(100 * share) + " %";
 }
@@ -39,6 +47,7 @@ void convergence_plot(const Snapshot& snapshot, double target_error, UiState& st
     const float scale = state.scale, line = state.fonts.small->FontSize;
     const auto corner = ImGui::GetCursorScreenPos();
     ImGui::InvisibleButton("##convergence", {std::max(width, 1.0f), std::max(height, 1.0f)});
+    ImGui::SetItemAllowOverlap(); // by Clear
     const bool hovered = ImGui::IsItemHovered();
     auto* draw = ImGui::GetWindowDrawList();
     const auto text = [&](float x, float y, const ImVec4& colour, const std::string& words) {
@@ -53,6 +62,9 @@ void convergence_plot(const Snapshot& snapshot, double target_error, UiState& st
     if (high.x - low.x < 60 * scale || high.y - low.y < 24 * scale) return;
     draw->AddRectFilled(low, high, packed(colours::backdrop), 3 * scale);
 
+    ConvergenceRuns& past = state.convergence_runs;
+    past.note(snapshot);
+    const std::string present = snapshot.scene ? solver_label(snapshot.scene->solve) : std::string();
     const auto& history = snapshot.history;
     const auto& status = snapshot.status;
     double smallest = std::min(target_error, 1.0);
@@ -62,6 +74,7 @@ void convergence_plot(const Snapshot& snapshot, double target_error, UiState& st
         if (point.error > 0) smallest = std::min(smallest, point.error);
         last = std::max(last, point.seconds);
     }
+    for (const ConvergenceRun& run : past.runs) last = std::max(last, run.history.back().seconds);
     const int bottom = std::clamp(static_cast<int>(std::floor(std::log10(std::max(smallest, 1e-6)))), -6, -2);
     const auto y_of = [&](double share) {
         const double decade = std::clamp(std::log10(std::max(share, 1e-9)), static_cast<double>(bottom), 0.0);
@@ -94,8 +107,9 @@ void convergence_plot(const Snapshot& snapshot, double target_error, UiState& st
                       packed(colours::error_estimate, 0.75f));
 
     draw->PushClipRect(low, high, true);
-    const auto curve = [&](double ConvergencePoint::*member, const ImVec4& colour) {
-        if (history.empty()) return;
+    const auto curve = [&](const std::vector<ConvergencePoint>& points, double ConvergencePoint::*member,
+                           const ImVec4& colour, float thickness) {
+        if (points.empty()) return;
         // A solve of minutes has thousands of points: a column of pixels shows where it enters, its extremes and where
         // it leaves.
         std::vector<ImVec2> line_points;
@@ -105,7 +119,7 @@ void convergence_plot(const Snapshot& snapshot, double target_error, UiState& st
             for (const float y : {lowest, highest, newest.y})
                 if (line_points.back().y != y) line_points.push_back({newest.x, y});
         };
-        for (const auto& point : history) {
+        for (const auto& point : points) {
             const ImVec2 place{x_of(point.seconds), y_of(point.*member)};
             if (std::floor(place.x) != column) {
                 if (!line_points.empty()) finish_column();
@@ -119,12 +133,33 @@ void convergence_plot(const Snapshot& snapshot, double target_error, UiState& st
         }
         finish_column();
         draw->AddPolyline(line_points.data(), static_cast<int>(line_points.size()), packed(colour), ImDrawFlags_None,
-                          1.7f * scale);
-        draw->AddCircleFilled(newest, 2.8f * scale, packed(colour));
+                          thickness * scale);
+        draw->AddCircleFilled(newest, 1.6f * thickness * scale, packed(colour));
     };
-    curve(&ConvergencePoint::unshot_share, colours::accent);
-    curve(&ConvergencePoint::error, colours::error_estimate);
+    std::size_t others = 0;
+    for (const ConvergenceRun& run : past.runs)
+        if (run.name != present) curve(run.history, &ConvergencePoint::unshot_share, past_colour(others++), 1.0f);
+    curve(history, &ConvergencePoint::unshot_share, colours::accent, 1.7f);
+    curve(history, &ConvergencePoint::error, colours::error_estimate, 1.7f);
     draw->PopClipRect();
+    if (others > 0) {
+        float row = low.y + 3 * scale;
+        others = 0;
+        for (const ConvergenceRun& run : past.runs) {
+            if (run.name == present) continue;
+            const ImVec4& colour = past_colour(others++);
+            const float right = high.x - 6 * scale, width_of_name = text_width(run.name);
+            draw->AddLine({right - 14 * scale, row + 0.5f * line}, {right, row + 0.5f * line}, packed(colour), scale);
+            text(right - 19 * scale - width_of_name, row, colours::dim, run.name);
+            row += line;
+        }
+        ImGui::SetCursorScreenPos({high.x - 40 * scale, row + 2 * scale});
+        ImGui::PushFont(state.fonts.small);
+        if (ImGui::SmallButton("Clear")) past.forget_others(present);
+        ImGui::PopFont();
+        state.layout_log.widget("convergence:clear");
+        tooltip(state, "Forget the curves of the solvers that ran before");
+    }
 
     // The legend is the present value.
     float x = low.x;

@@ -3,8 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "core/scene/solver_words.h"
+#include "core/solve/form_factor_matrix.h"
 #include "ui/panels.h"
+#include "ui/solver_rows.h"
 #include "ui/widgets.h"
 
 namespace lueur {
@@ -38,68 +39,6 @@ std::string wavelengths_name(const WavelengthsSpec& spec) {
         return "RGB";
     }
     return {};
-}
-
-const char* solver_name(SolverKind solver) {
-    switch (solver) {
-    case SolverKind::automatic:
-        return "Automatic";
-    case SolverKind::gathering:
-        return "Gathering";
-    case SolverKind::shooting:
-        return "Shooting";
-    case SolverKind::overshooting:
-        return "Overshooting";
-    case SolverKind::jacobi:
-        return "Jacobi";
-    case SolverKind::gauss_seidel:
-        return "Gauss-Seidel";
-    case SolverKind::hierarchical:
-        return "Hierarchical";
-    case SolverKind::reference:
-        return "Traced paths";
-    }
-    return "";
-}
-
-const char* solver_tip(SolverKind solver) {
-    switch (solver) {
-    case SolverKind::automatic:
-        return "The method with the least error for its time in what was measured: gathering";
-    case SolverKind::gathering:
-        return "Direct light apart, rays gathered once and kept, sweeps over the kept rows";
-    case SolverKind::shooting:
-        return "Progressive refinement: the patch with most unshot light shoots it, and an ambient term stands for the "
-               "rest";
-    case SolverKind::overshooting:
-        return "Shooting on the full matrix, where a patch also shoots what it will still receive";
-    case SolverKind::jacobi:
-        return "Full matrix of form factors; each sweep gathers from the radiosities of the one before";
-    case SolverKind::gauss_seidel:
-        return "Full matrix of form factors; each patch gathers from the newest radiosities";
-    case SolverKind::hierarchical:
-        return "Links between elements of a quadtree, refined where they carry error";
-    case SolverKind::reference:
-        return "Paths traced from each vertex, without radiosity: slow and unbiased";
-    }
-    return "";
-}
-
-bool solver_combo(UiState& state, SolverKind& solver) {
-    bool any = false;
-    const bool open = ImGui::BeginCombo("##solver", solver_name(solver), ImGuiComboFlags_HeightLargest);
-    state.layout_log.widget("solver");
-    if (!open) return false;
-    for (const SolverKind one : all_solvers) {
-        if (ImGui::Selectable(solver_name(one), solver == one)) {
-            solver = one;
-            any = true;
-        }
-        state.layout_log.widget(fmt::format("solver:{}", solver_name(one)));
-        tooltip(state, solver_tip(one));
-    }
-    ImGui::EndCombo();
-    return any;
 }
 
 void figure(const UiState& state, const char* name, const std::string& value, const char* tip) {
@@ -139,6 +78,10 @@ void status_figures(const SolveStatus& status, const UiState& state) {
             figure(state, "Row entries", count(status.row_entries), "Kept: who sees whom, and how much");
         figure(state, "Sweeps", count(status.sweeps), "Over all rows");
         figure(state, "Shots", count(status.shots), "Patches that have shot their light");
+        figure(state, "Residual", status.residual > 0 ? fmt::format("{:.1e}", status.residual) : "0",
+               "Of the equations, of what is emitted, in the worst channel");
+        figure(state, "Matrix", bytes_text(status.matrix_bytes),
+               "Memory of the full matrix of form factors of this scene; taken by the solvers that keep one");
         figure(state, "Emitted", short_number(status.emitted_lumens) + " lm", "By all luminaires");
         figure(state, "Last edit",
                status.last_edit_seconds > 0 ? fmt::format("{:.0f} ms", 1000 * status.last_edit_seconds) : "-",
@@ -157,8 +100,7 @@ std::optional<Edit> solver_panel(const Document& document, const Snapshot& snaps
     bool any = false;      // changed for good
     bool dragging = false; // still changing
 
-    row_label(state, "Solver", solver_tip(chosen_solver(solve)));
-    any = solver_combo(state, solve.solver) || any;
+    any = solver_rows(snapshot, state, solve) || any;
     row_label(state, "");
     const float third = (ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x) / 3;
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {2 * state.scale, ImGui::GetStyle().FramePadding.y});

@@ -12,6 +12,7 @@
 #include "editor/edit.h"
 #include "editor/snapshot.h"
 #include "ui/commands.h"
+#include "ui/convergence_runs.h"
 #include "ui/exposure.h"
 #include "ui/layout_log.h"
 #include "ui/light_readings.h"
@@ -82,6 +83,8 @@ struct UiState {
     bool own_primaries = false; // numbers in the place of a preset
     bool calibrating = false;   // the picture to set gamma by is unfolded
     float unshot_top = 0;       // top of the false-colour scale, lm m^-2
+
+    ConvergenceRuns convergence_runs;
 
     ChromaticityScale chromaticity_scale = ChromaticityScale::uv;
     bool chromaticity_whites = false; // only the part of the diagram where lamps lie

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "core/scene/solver_words.h"
 #include "core/view/picture.h"
 #include "ui/false_colour.h"
 #include "ui/navigation.h"
@@ -215,7 +216,9 @@ std::optional<Edit> viewport(const Document& document, const Snapshot& snapshot,
     params.selected = state.selected;
     params.unshot_top = state.unshot_top;
     params.line_width = std::max(1.0f, std::round(1.2f * state.scale));
-    params.highlight_shooting = scene.solve.solver == SolverKind::shooting && !snapshot.status.settled;
+    const SolverKind solver = chosen_solver(scene.solve);
+    params.highlight_shooting =
+        (solver == SolverKind::shooting || solver == SolverKind::overshooting) && !snapshot.status.settled;
     if (known && !snapshot.status.settled && !state.paused) view.last_motion = now;
     params.still = now - view.last_motion > still_after;
     view.picture = renderer.draw(params);

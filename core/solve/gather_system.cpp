@@ -7,20 +7,14 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
+#include "core/solve/best_vectors.h"
+
 namespace lueur {
 
 namespace {
 
 using Sums = std::array<double, max_channels>;
 constexpr std::uint32_t grain = 256;
-
-// Where the machine has 256-bit vectors they are used: chosen once when the program starts. (ThreadSanitizer cannot run
-// such choices.)
-#if defined(__x86_64__) && !defined(__SANITIZE_THREAD__)
-#define LUEUR_BEST_VECTORS __attribute__((target_clones("arch=x86-64-v3", "default")))
-#else
-#define LUEUR_BEST_VECTORS
-#endif
 
 // Eight channels as one register (two, without 256-bit vectors). Written out, for the compiler would sum channel by
 // channel in memory.

@@ -216,6 +216,7 @@ void step_gathering(State& s, const std::atomic<bool>& cancel) {
             return fail(s, "the solver does not converge on this scene; a reflectance is too close to 1");
     }
     s.status.unshot_share = unshot_flux_share(s);
+    s.status.residual = s.system.relative_residual();
     if (s.system.relative_residual() > residual_target) return;
     update_error(s);
     if (!s.refined) {

@@ -1,16 +1,235 @@
 // The solvers of the full matrix in a solution: the matrix built in slices, then sweeps or shots.
+//
+// Patches are the coarse elements where their matrix fits into the memory allowed, else the mesh's larger patches.
+// Luminaires are patches with exitance, so that direct light goes through form factors too, as in the lecture; the
+// transport's direct light is shown only until the first sweep. What is shown is the patches' irradiance, averaged over
+// area at the vertices of the same surface (correction 36).
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/scene/solver_words.h"
 #include "core/solve/solution_steps.h"
+#include "core/transport/time_slice.h"
 
 namespace lueur {
 
+namespace {
+
+constexpr double unshot_of_sweeps = 0.05; // of the target error that flux left unshot may take
+constexpr double unshot_of_shots = 0.2;
+constexpr std::uint32_t most_sweeps = 20000;
+constexpr std::uint32_t most_shots = 500; // a patch
+constexpr std::size_t rate_sweeps = 16;   // over which the rate of convergence is taken
+
 using State = Solution::State;
 
-void start_matrix(State& s, bool) {
-    fail(s, "the matrix solver is not in this build");
+// Luminous and other channels of the sources and paints, patch by patch.
+void give_sources(State& s) {
+    PatchSolve& p = s.patch_solve;
+    PatchField rho(p.matrix.n, s.channels()), exitance(p.matrix.n, s.channels());
+    for (std::uint32_t e = 0; e < s.mesh.coarse_element_count; ++e) {
+        const std::uint32_t patch = p.of_element[e], surface = s.mesh.coarse_surface[e];
+        const auto luminaire = s.luminaire_of(surface, s.mesh.coarse_back[e] != 0);
+        for (int c = 0; c < s.channels(); ++c) {
+            rho[patch][c] = s.material_rho[s.material_of(surface)][c];
+            exitance[patch][c] = luminaire ? s.luminaire_exitance[*luminaire][c] : 0;
+        }
+    }
+    if (has_no_finite_solution(p.matrix, p.sums, rho, exitance, s.channels())) return fail(s, no_finite_solution);
+    p.system.set_sources(std::move(rho), std::move(exitance));
 }
 
-void build_matrix(State&, const std::atomic<bool>&) {}
+// Irradiance of the patches at the coarse vertices.
+void show_patches(State& s) {
+    PatchSolve& p = s.patch_solve;
+    const Mesh& mesh = s.mesh;
+    const PatchField& h = p.system.irradiance();
+    p.irradiance = ChannelField(mesh.coarse_vertex_count, s.channels());
+    std::vector<float> area(mesh.coarse_vertex_count, 0);
+    for (std::uint32_t e = 0; e < mesh.coarse_element_count; ++e)
+        for (int k = 0; k < 3; ++k) {
+            const std::uint32_t v = mesh.nodes[e].vertices[k];
+            area[v] += mesh.coarse_area[e];
+            for (int c = 0; c < s.channels(); ++c)
+                p.irradiance[v][c] += mesh.coarse_area[e] * static_cast<float>(h[p.of_element[e]][c]);
+        }
+    for (std::uint32_t v = 0; v < area.size(); ++v)
+        for (int c = 0; c < s.channels() && area[v] > 0; ++c) p.irradiance[v][c] /= area[v];
 
-void step_matrix(State&, const std::atomic<bool>&, bool) {}
+    double square = 0, norm = 0;
+    std::vector<float> channels(static_cast<std::size_t>(h.stride));
+    for (std::uint32_t e = 0; e < mesh.coarse_element_count; ++e) {
+        const double* patch = h[p.of_element[e]];
+        std::copy(patch, patch + h.stride, channels.begin());
+        const double there = luminous(s, channels.data());
+        double mean = 0;
+        for (int k = 0; k < 3; ++k) mean += luminous(s, p.irradiance[mesh.nodes[e].vertices[k]]) / 3;
+        square += mesh.coarse_area[e] * (there - mean) * (there - mean);
+        norm += mesh.coarse_area[e] * there * there;
+    }
+    p.smoothing = norm > 0 ? std::sqrt(square / norm) : 0;
+}
+
+// Why it will not get there, or nothing. `enough`: the unshot share it is to reach.
+std::string hopeless(const State& s, double enough) {
+    const std::vector<double>& u = s.patch_solve.history;
+    if (!u.empty() && !std::isfinite(u.back())) return "the solver lost its way on this scene: no finite radiosities";
+    if (u.size() <= 2 * rate_sweeps) return {};
+    const double rate = std::pow(u.back() / u[u.size() - 1 - rate_sweeps], 1.0 / rate_sweeps);
+    if (rate < 1) {
+        const double left = std::log(enough / u.back()) / std::log(rate);
+        if (s.status.sweeps + left <= most_sweeps) return {};
+        return fmt::format("{} would need about {:.2g} sweeps, {} are the limit: a reflectance is too close to 1",
+                           to_string(s.solver()), s.status.sweeps + left, most_sweeps);
+    }
+    if (s.status.sweeps < most_sweeps) return {};
+    return fmt::format("{} does not converge on this scene within {} sweeps", to_string(s.solver()), most_sweeps);
+}
+
+void take_shots(State& s, const std::atomic<bool>& cancel, bool one_shot, double enough) {
+    MatrixSystem& system = s.patch_solve.system;
+    const auto start = std::chrono::steady_clock::now();
+    do {
+        if (!system.shoot(true)) break;
+        ++s.status.shots;
+    } while (!one_shot && system.unshot_share() > enough && !cancel.load(std::memory_order_relaxed) &&
+             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < step_seconds);
+    system.refresh();
+    const std::uint32_t shooter = system.last_shooter();
+    s.status.shooting_patch = no_index;
+    for (std::uint32_t e = 0; e < s.mesh.coarse_element_count && shooter != no_index; ++e)
+        if (s.patch_solve.of_element[e] == shooter) s.status.shooting_patch = s.mesh.coarse_patch[e];
+}
+
+bool made_with(const PatchSolve& p, const SolveSettings& solve) {
+    return p.matrix.n > 0 && p.method == solve.form_factors && p.samples == solve.form_factor_samples &&
+           p.seed == solve.seed && p.memory == solve.matrix_memory;
+}
+
+} // namespace
+
+MatrixSize matrix_size(const Mesh& mesh, int memory_mib) {
+    const bool elements = matrix_bytes(mesh.coarse_element_count) <= std::uint64_t(memory_mib) << 20;
+    const auto patches = elements ? mesh.coarse_element_count : static_cast<std::uint32_t>(mesh.patches.size());
+    return {elements, patches};
+}
+
+void start_matrix(State& s, bool same_sources) {
+    PatchSolve& p = s.patch_solve;
+    if (!made_with(p, s.scene->solve)) p = PatchSolve{};
+    s.status.matrix_patches = matrix_size(s.mesh, s.scene->solve.matrix_memory).patches;
+    s.status.matrix_bytes = matrix_bytes(s.status.matrix_patches);
+    if (!p.complete) {
+        s.phase = SolvePhase::transport;
+        return;
+    }
+    s.phase = SolvePhase::solve;
+    if (p.matrix.transposed != (s.solver() == SolverKind::overshooting)) transpose(p.matrix);
+    if (s.solving && same_sources) return;
+    if (!s.solving) p.system = MatrixSystem(p.matrix, s.channels(), flux_weights(s));
+    s.status.sweeps = s.status.shots = 0;
+    p.history.clear();
+    if (s.status.message.empty() && p.sums.above + p.sums.broken > 0)
+        s.status.message =
+            fmt::format("form factors of {} of {} patches summed to more than 1 ({:.4g} at most): scaled down to 1",
+                        p.sums.above + p.sums.broken, p.matrix.n, p.sums.largest);
+    give_sources(s);
+}
+
+void build_matrix(State& s, const std::atomic<bool>& cancel) {
+    PatchSolve& p = s.patch_solve;
+    const SolveSettings& solve = s.scene->solve;
+    s.status.stage = SolveStage::form_factors;
+    if (!std::exchange(p.announced, true)) return; // the status says what it will take before it is taken
+    if (p.matrix.n == 0) {
+        const MatrixSize size = matrix_size(s.mesh, solve.matrix_memory);
+        p.of_elements = size.of_elements;
+        p.of_element.resize(s.mesh.coarse_element_count);
+        std::vector<float> area(size.patches, 0);
+        for (std::uint32_t e = 0; e < s.mesh.coarse_element_count; ++e) {
+            p.of_element[e] = size.of_elements ? e : s.mesh.coarse_patch[e];
+            area[p.of_element[e]] += s.mesh.coarse_area[e];
+        }
+        auto matrix = make_form_factor_matrix(std::move(area), std::uint64_t(solve.matrix_memory) << 20);
+        if (!matrix) return fail(s, matrix.error());
+        p.matrix = std::move(*matrix);
+        p.scene = size.of_elements ? make_element_scene(s.mesh, *s.world) : make_patch_scene(s.mesh, *s.world);
+        p.method = solve.form_factors, p.samples = solve.form_factor_samples;
+        p.seed = solve.seed, p.memory = solve.matrix_memory;
+        p.cursor = 0;
+    }
+    const std::uint64_t cost_before = p.cost.cost;
+    const bool done =
+        fill_rows(p.matrix, p.scene, p.method, row_settings(p.method, p.samples, p.seed), p.cursor, p.cost, cancel);
+    s.status.form_factor_cost += p.cost.cost - cost_before;
+    s.status.progress = p.matrix.n > 0 ? double(p.cursor) / p.matrix.n : 1;
+    if (!done) return;
+    p.sums = limit_row_sums(p.matrix);
+    p.complete = true;
+    s.status.row_entries = std::uint64_t(p.matrix.n) * p.matrix.n;
+    start_matrix(s, false);
+}
+
+void step_matrix(State& s, const std::atomic<bool>& cancel, bool one_shot) {
+    PatchSolve& p = s.patch_solve;
+    s.status.stage = SolveStage::solving;
+    const double absorbed = std::max(1e-3, 1 - mean_luminous_reflectance(s));
+    const bool shots = s.solver() == SolverKind::overshooting;
+    const double enough = (shots ? unshot_of_shots : unshot_of_sweeps) * s.scene->solve.target_error * absorbed;
+    switch (s.solver()) {
+    case SolverKind::jacobi:
+        if (!p.system.jacobi_sweep(cancel)) return;
+        ++s.status.sweeps;
+        break;
+    case SolverKind::gauss_seidel:
+        if (!p.system.gauss_seidel_sweep(cancel)) return;
+        ++s.status.sweeps;
+        break;
+    case SolverKind::overshooting:
+        take_shots(s, cancel, one_shot, enough);
+        break;
+    case SolverKind::automatic:
+    case SolverKind::gathering:
+    case SolverKind::shooting:
+    case SolverKind::hierarchical:
+    case SolverKind::reference:
+        return;
+    }
+    show_patches(s);
+    s.solving = true;
+    s.status.unshot_share = p.system.unshot_share();
+    s.status.residual = p.system.relative_residual();
+    s.status.estimated_error = std::min(1.0, std::hypot(s.status.unshot_share / absorbed, p.smoothing));
+    if (!shots) {
+        p.history.push_back(s.status.unshot_share);
+        if (std::string why = hopeless(s, enough); !why.empty()) return fail(s, std::move(why));
+    } else if (s.status.shots > most_shots * p.matrix.n) {
+        return fail(s, fmt::format("overshooting does not converge on this scene within {} shots", s.status.shots));
+    }
+    const bool known = shots || p.system.residual_known();
+    if (known && s.status.unshot_share <= enough) settle(s);
+}
+
+std::vector<float> unshot_of_matrix(const State& s) {
+    const PatchSolve& p = s.patch_solve;
+    std::vector<float> unshot(s.mesh.coarse_vertex_count, 0), area(s.mesh.coarse_vertex_count, 0);
+    std::vector<float> channels;
+    for (std::uint32_t e = 0; e < s.mesh.coarse_element_count; ++e) {
+        const double* r = p.system.unshot()[p.of_element[e]];
+        channels.assign(r, r + p.system.unshot().stride);
+        const auto y = static_cast<float>(std::abs(luminous(s, channels.data())));
+        for (int k = 0; k < 3; ++k) {
+            const std::uint32_t v = s.mesh.nodes[e].vertices[k];
+            unshot[v] += s.mesh.coarse_area[e] * y, area[v] += s.mesh.coarse_area[e];
+        }
+    }
+    for (std::size_t v = 0; v < unshot.size(); ++v)
+        if (area[v] > 0) unshot[v] /= area[v];
+    return unshot;
+}
 
 } // namespace lueur

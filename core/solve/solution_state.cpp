@@ -30,11 +30,12 @@ bool Solution::State::luminaire_is_lit(std::size_t luminaire) const {
     switch (solver()) {
     case SolverKind::shooting:
         return solving && shooting.luminaire_has_shot()[luminaire] != 0;
-    case SolverKind::automatic:
-    case SolverKind::gathering:
     case SolverKind::overshooting:
     case SolverKind::jacobi:
     case SolverKind::gauss_seidel:
+        return !solving; // then it is in the patches' irradiance
+    case SolverKind::automatic:
+    case SolverKind::gathering:
     case SolverKind::reference:
         return true;
     case SolverKind::hierarchical:
@@ -51,11 +52,12 @@ const ChannelField& Solution::State::indirect() const {
     switch (solver()) {
     case SolverKind::shooting:
         return shooting.indirect();
-    case SolverKind::automatic:
-    case SolverKind::gathering:
     case SolverKind::overshooting:
     case SolverKind::jacobi:
     case SolverKind::gauss_seidel:
+        return patch_solve.irradiance;
+    case SolverKind::automatic:
+    case SolverKind::gathering:
     case SolverKind::hierarchical:
     case SolverKind::reference:
         return indirect_irradiance;
@@ -77,6 +79,7 @@ std::vector<float> Solution::State::unshot_at_vertices() const {
     case SolverKind::overshooting:
     case SolverKind::jacobi:
     case SolverKind::gauss_seidel:
+        return unshot_of_matrix(*this);
     case SolverKind::hierarchical:
     case SolverKind::reference:
         break;

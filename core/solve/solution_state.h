@@ -10,6 +10,7 @@
 #include "core/solve/hierarchy_field.h"
 #include "core/solve/hierarchy_final.h"
 #include "core/solve/hierarchy_view.h"
+#include "core/solve/patch_solve.h"
 #include "core/solve/shooting.h"
 #include "core/solve/solution.h"
 #include "core/transport/direct_transport.h"
@@ -66,8 +67,9 @@ struct Solution::State {
     bool final_done = false;                             // all its rays are traced
     std::vector<glm::vec3> vertex_origins;               // of all vertices of the mesh
     std::shared_ptr<const HierarchyView> hierarchy_view; // as of the last round of refinement
-    bool solving = false;                                // system or shooting hold this scene's sources
-    bool edit_open = true;                               // last_edit_seconds is still to be set
+    PatchSolve patch_solve; // Jacobi, Gauss-Seidel, overshooting
+    bool solving = false;   // system or shooting hold this scene's sources
+    bool edit_open = true;  // last_edit_seconds is still to be set
 
     int channels() const { return wavelengths->size() + (trichromatic ? trichromatic->size() : 0); }
     // Coarse vertices by their own rays, fine ones where they are dark and inside a solid.

@@ -59,6 +59,12 @@ void step_shooting(Solution::State& s, const std::atomic<bool>& cancel, bool one
 void start_matrix(Solution::State& s, bool same_sources);
 void build_matrix(Solution::State& s, const std::atomic<bool>& cancel);
 void step_matrix(Solution::State& s, const std::atomic<bool>& cancel, bool one_shot);
+std::vector<float> unshot_of_matrix(const Solution::State& s);
+struct MatrixSize {
+    bool of_elements;
+    std::uint32_t patches;
+};
+MatrixSize matrix_size(const Mesh& mesh, int memory_mib); // elements where their matrix fits, else patches
 
 // Hierarchical radiosity: solution_hierarchical.cpp.
 void start_hierarchical(Solution::State& s, bool same_sources);

@@ -53,6 +53,8 @@ void step_burial(State& s, const std::atomic<bool>& cancel) {
         return;
     s.status.rays += std::uint64_t(s.mesh.coarse_vertex_count) * burial_rays;
     s.receivers = make_receivers(*s.scene, s.mesh, s.buried, static_cast<float>(receiver_cell * s.element_size));
+    s.status.matrix_patches = matrix_size(s.mesh, s.scene->solve.matrix_memory).patches;
+    s.status.matrix_bytes = matrix_bytes(s.status.matrix_patches);
     s.status.receivers = s.receivers.count();
     start_solver(s);
 }

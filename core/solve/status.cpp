@@ -12,6 +12,8 @@ std::string to_string(SolveStage stage) {
         return "direct light";
     case SolveStage::gathering_rays:
         return "gathering rays";
+    case SolveStage::form_factors:
+        return "form factors";
     case SolveStage::solving:
         return "solving";
     case SolveStage::settled:

@@ -8,7 +8,7 @@
 
 namespace lueur {
 
-enum class SolveStage { idle, meshing, direct, gathering_rays, solving, settled, failed };
+enum class SolveStage { idle, meshing, direct, gathering_rays, form_factors, solving, settled, failed };
 std::string to_string(SolveStage stage);
 
 struct ConvergencePoint {
@@ -32,8 +32,11 @@ struct SolveStatus {
     std::uint32_t rays_per_receiver = 0;
     std::uint32_t sweeps = 0, shots = 0;
     std::uint32_t links = 0, link_elements = 0, link_levels = 0, link_rounds = 0; // hierarchical
-    double residual = 0;    // hierarchical: change of the radiosities in the last sweep
     double error_bound = 0; // hierarchical: mean relative error if all links err the same way
+    double residual = 1;                // |r| / |E| of the system solved, worst channel
+    std::uint32_t matrix_patches = 0;   // that a full matrix would have here; known once there is a mesh
+    std::uint64_t form_factor_cost = 0; // rays, pixels or kernel evaluations, for form factors between patches
+    std::uint64_t matrix_bytes = 0;     // and the memory it takes, taken only by the solvers that keep one
     std::uint32_t receivers = 0, vertices = 0, elements = 0;
     std::uint32_t shooting_patch = no_index; // patch of the mesh that shot last; no_index: a luminaire, or none
     std::string wavelengths;                 // what the channels are, in a line

@@ -43,9 +43,13 @@ std::string report_json(const std::string& command, const BatchParams& params, c
     report["stage_seconds"] = stages;
     report["solve_seconds"] = solved.seconds;
     report["rays"] = status.rays;
+    report["form_factor_cost"] = status.form_factor_cost;
     report["rays_per_receiver"] = status.rays_per_receiver;
     report["rows"] = status.receivers;
     report["row_entries"] = status.row_entries;
+    report["residual"] = status.residual;
+    report["matrix_patches"] = status.matrix_patches;
+    report["matrix_bytes"] = status.matrix_bytes;
     report["vertices"] = status.vertices;
     report["elements"] = status.elements;
     if (chosen_solver(settings) == SolverKind::hierarchical) {

@@ -70,7 +70,7 @@ TEST(CommandLine, Render) {
     EXPECT_EQ(render.quantity, PictureQuantity::luminance);
     EXPECT_EQ(render.batch.time_limit, 2.5);
     EXPECT_EQ(render.batch.report, "r.json");
-    EXPECT_EQ(render.batch.solve.solver, SolverKind::gathering);
+    EXPECT_EQ(render.batch.solve.solver, SolverKind::automatic);
     EXPECT_TRUE(parsed<RenderCommand>({"render", "room.toml", "--output", "a.exr"}).batch.report.empty());
     EXPECT_EQ(parsed<RenderCommand>({"render", "room.toml", "-o", "a.png", "--max-display", "auto"}).max_display_rule,
               MaxDisplayRule::percentile);
@@ -129,6 +129,29 @@ TEST(CommandLine, Measure) {
     EXPECT_FALSE(reference.batch.solve.solver.has_value());
 }
 
+TEST(CommandLine, SolverWordsTakeHyphens) {
+    for (const char* word : {"gauss-seidel", "gauss_seidel"})
+        EXPECT_EQ(parsed<RenderCommand>({"render", "r.toml", "-o", "a.png", "--solver", word}).batch.solve.solver,
+                  SolverKind::gauss_seidel);
+    const SolveOverrides solve =
+        parsed<EditorCommand>({"room.toml", "--solver", "hierarchical", "--form-factor", "point-to-disk", "--oracle",
+                               "form-factor", "--form-factor-samples", "9", "--link-tolerance", "0.5",
+                               "--matrix-memory", "64"})
+            .solve;
+    const SolveSettings settings = with_overrides({}, solve);
+    EXPECT_EQ(settings.solver, SolverKind::hierarchical);
+    EXPECT_EQ(settings.form_factors, FormFactorMethod::point_to_disk);
+    EXPECT_EQ(settings.form_factor_samples, 9);
+    EXPECT_EQ(settings.oracle, RefinementOracle::form_factor);
+    EXPECT_EQ(settings.link_tolerance, 0.5);
+    EXPECT_EQ(settings.matrix_memory, 64);
+    const auto measure = parsed<MeasureCommand>(
+        {"measure", "r.toml", "--points", "i.csv", "-o", "o.csv", "--solver", "jacobi", "--form-factor", "hemicube"});
+    EXPECT_EQ(measure.batch.solve.solver, SolverKind::jacobi);
+    EXPECT_EQ(measure.batch.solve.form_factors, FormFactorMethod::hemicube);
+    EXPECT_EQ(measure.at, MeasureAt::gather);
+}
+
 TEST(CommandLine, HelpAndVersionAreForStdout) {
     for (const std::vector<const char*>& words :
          {std::vector<const char*>{"--help"}, {"-h"}, {"render", "--help"}, {"measure", "--help"}, {"--version"}}) {
@@ -151,8 +174,12 @@ TEST(CommandLine, HelpAndVersionAreForStdout) {
 
 TEST(CommandLine, MistakesGetOneLineThatSaysWhatIsAllowed) {
     const std::pair<std::vector<const char*>, const char*> cases[] = {
-        {{"--solver", "jacobi"}, "gathering, shooting, auto"},
-        {{"--solver", "reference"}, "gathering, shooting, auto"}, // a way to measure only
+        {{"--solver", "magic"},
+         "auto, gathering, shooting, overshooting, jacobi, gauss_seidel, hierarchical, reference"},
+        {{"--form-factor", "guess"}, "auto, analytic, point_to_disk, area_sampled, monte_carlo, hemicube, hemisphere"},
+        {{"--form-factor-samples", "-1"}, "from 0 to 1048576"},
+        {{"--oracle", "delphi"}, "form_factor, flux, error"},
+        {{"--matrix-memory", "0"}, "from 1 to 1048576"},
         {{"--wavelengths", "uniform:99"}, "uniform"},
         {{"--frobnicate"}, "--frobnicate"},
         {{"a.toml", "b.toml"}, "b.toml"},
@@ -209,8 +236,8 @@ TEST(CommandLine, MistakesGetOneLineThatSaysWhatIsAllowed) {
         {{"measure", "a.toml", "-o", "o.csv"}, "--points"},
         {{"measure", "a.toml", "--points", "i.csv"}, "--output"},
         {{"measure", "a.toml", "--points", "i.csv", "-o", "o.csv", "--at", "wall"}, "gather, field"},
-        {{"measure", "a.toml", "--points", "i.csv", "-o", "o.csv", "--solver", "jacobi"},
-         "gathering, shooting, auto, reference"},
+        {{"measure", "a.toml", "--points", "i.csv", "-o", "o.csv", "--solver", "magic"},
+         "gauss_seidel, hierarchical, reference"},
         {{"measure", "a.toml", "--points", "i.csv", "-o", "o.csv", "--at", "field", "--rays", "9"},
          "does nothing with --at field"},
         {{"measure", "a.toml", "--points", "i.csv", "-o", "o.csv", "--solver", "reference", "--at", "field"},

@@ -70,6 +70,10 @@ TEST(FirstStaleStage, IsTheEarliestThatTheEditTouches) {
          })},
          Stage::reflectance},
         {SetSolve{settings_with([](SolveSettings& s) { s.solver = SolverKind::shooting; })}, Stage::reflectance},
+        // Form factors and links are nothing to a solver without them.
+        {SetSolve{settings_with([](SolveSettings& s) { s.form_factors = FormFactorMethod::hemicube; })},
+         Stage::reflectance},
+        {SetSolve{settings_with([](SolveSettings& s) { s.oracle = RefinementOracle::flux; })}, Stage::reflectance},
         {SetSolve{settings_with([](SolveSettings& s) { s.target_error = 0.01; })}, Stage::reflectance},
         {SetSolve{settings_with([](SolveSettings& s) { s.max_rays *= 2; })}, Stage::reflectance},
         {SetSolve{settings_with([](SolveSettings& s) { s.max_rays /= 2; })}, Stage::transport},
@@ -81,6 +85,30 @@ TEST(FirstStaleStage, IsTheEarliestThatTheEditTouches) {
     };
     for (const auto& [edit, stage] : table)
         EXPECT_EQ(first_stale_stage(edit, scene), stage) << describe(edit, scene) << ", alternative " << edit.index();
+}
+
+TEST(Edit, FormFactorsAndLinksAreTransportOfTheSolversThatKeepThem) {
+    Scene scene = small_scene();
+    const auto stage = [&](auto&& change) {
+        SolveSettings settings = scene.solve;
+        change(settings);
+        return first_stale_stage(SetSolve{settings}, scene);
+    };
+    const auto other_method = [](SolveSettings& s) { s.form_factors = FormFactorMethod::hemicube; };
+    const auto more_samples = [](SolveSettings& s) { s.form_factor_samples = 64; };
+    const auto other_oracle = [](SolveSettings& s) { s.oracle = RefinementOracle::flux; };
+    for (const SolverKind solver : {SolverKind::jacobi, SolverKind::gauss_seidel, SolverKind::overshooting}) {
+        scene.solve.solver = solver;
+        EXPECT_EQ(stage(other_method), Stage::transport);
+        EXPECT_EQ(stage(more_samples), Stage::transport);
+        EXPECT_EQ(stage([](SolveSettings& s) { s.matrix_memory = 64; }), Stage::transport);
+        EXPECT_EQ(stage(other_oracle), Stage::reflectance);
+        EXPECT_EQ(stage([](SolveSettings& s) { s.solver = SolverKind::gathering; }), Stage::reflectance);
+    }
+    scene.solve.solver = SolverKind::hierarchical;
+    EXPECT_EQ(stage(other_method), Stage::transport);
+    EXPECT_EQ(stage(other_oracle), Stage::transport);
+    EXPECT_EQ(stage([](SolveSettings& s) { s.link_tolerance = 1; }), Stage::transport);
 }
 
 TEST(ApplyEdit, ChangesWhatItNames) {

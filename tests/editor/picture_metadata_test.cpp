@@ -14,7 +14,12 @@ using ::testing::HasSubstr;
 Scene scene_of_odd_numbers() {
     Scene scene;
     scene.name = "Büro \"3\"";
-    scene.solve.solver = SolverKind::shooting;
+    scene.solve.solver = SolverKind::gauss_seidel;
+    scene.solve.form_factors = FormFactorMethod::point_to_disk;
+    scene.solve.form_factor_samples = 12;
+    scene.solve.oracle = RefinementOracle::flux;
+    scene.solve.link_tolerance = 1.0 / 3;
+    scene.solve.matrix_memory = 77;
     scene.solve.wavelengths = {WavelengthRule::uniform, 17};
     scene.solve.target_error = 1.0 / 30;
     scene.solve.element_size = 0.1 + 0.2;

@@ -90,7 +90,12 @@ curve = "gamma"
 gamma = [1.8, 2, 2.35]
 
 [solve]
-solver = "shooting"
+solver = "gauss_seidel"
+form_factors = "point_to_disk"
+form_factor_samples = 100
+oracle = "flux"
+link_tolerance = 0.25
+matrix_memory = 2048
 wavelengths = "rgb"
 target_error = 0.001
 element_size = 3.7

@@ -204,8 +204,70 @@ TEST_F(PanelsTest, SolverButtonsAsk) {
     drag(solver_panel, "pause", 0.5f, 0.5f);
     drag(solver_panel, "restart", 0.5f, 0.5f);
     EXPECT_EQ(state_->commands, (std::vector{Command::pause, Command::restart}));
-    drag(solver_panel, "solver:Shooting", 0.5f, 0.5f);
-    EXPECT_EQ(document_.scene().solve.solver, SolverKind::shooting);
+}
+
+TEST_F(PanelsTest, EverySolverCanBeChosenAndShowsWhatItWorksWith) {
+    const std::pair<const char*, SolverKind> solvers[] = {{"Shooting", SolverKind::shooting},
+                                                          {"Overshooting", SolverKind::overshooting},
+                                                          {"Jacobi", SolverKind::jacobi},
+                                                          {"Gauss-Seidel", SolverKind::gauss_seidel},
+                                                          {"Hierarchical", SolverKind::hierarchical},
+                                                          {"Traced paths", SolverKind::reference},
+                                                          {"Gathering", SolverKind::gathering},
+                                                          {"Automatic", SolverKind::automatic}};
+    for (const auto& [name, kind] : solvers) {
+        drag(solver_panel, "solver", 0.5f, 0.5f); // opens the list
+        drag(solver_panel, std::string("solver:") + name, 0.5f, 0.5f);
+        EXPECT_EQ(document_.scene().solve.solver, kind) << name;
+    }
+    drag(solver_panel, "solver", 0.5f, 0.5f);
+    drag(solver_panel, "solver:Jacobi", 0.5f, 0.5f);
+    drag(solver_panel, "form_factors", 0.5f, 0.5f);
+    drag(solver_panel, "form_factors:Hemicube", 0.5f, 0.5f);
+    EXPECT_EQ(document_.scene().solve.form_factors, FormFactorMethod::hemicube);
+    drag(solver_panel, "solver", 0.5f, 0.5f);
+    drag(solver_panel, "solver:Hierarchical", 0.5f, 0.5f);
+    drag(solver_panel, "oracle", 0.5f, 0.5f);
+    drag(solver_panel, "oracle:Flux", 0.5f, 0.5f);
+    EXPECT_EQ(document_.scene().solve.oracle, RefinementOracle::flux);
+}
+
+TEST_F(PanelsTest, CurvesOfSolversThatRanBeforeStayUntilClearedOrAnotherScene) {
+    const auto show = [](const Document&, const Snapshot& snapshot, UiState& state) -> std::optional<Edit> {
+        convergence_plot(snapshot, 0.02, state, 300, 140);
+        return {};
+    };
+    const auto run = [&](SolverKind solver, FormFactorMethod method) {
+        Scene scene = document_.scene();
+        scene.solve.solver = solver;
+        scene.solve.form_factors = method;
+        snapshot_.scene = std::make_shared<const Scene>(scene);
+        ++snapshot_.revision;
+        snapshot_.history = {{0.1, 1, 1}, {0.2, 0.1 * static_cast<double>(snapshot_.revision), 0.5}};
+        frame(show);
+    };
+    const auto& runs = state_->convergence_runs.runs;
+    run(SolverKind::automatic, FormFactorMethod::automatic);
+    EXPECT_EQ(runs.size(), 1u);
+    run(SolverKind::gathering, FormFactorMethod::hemicube); // the same by its name
+    EXPECT_EQ(runs.size(), 1u);
+    run(SolverKind::jacobi, FormFactorMethod::hemicube);
+    run(SolverKind::jacobi, FormFactorMethod::analytic);
+    ASSERT_EQ(runs.size(), 3u);
+    EXPECT_EQ(runs[1].name, "Jacobi, Hemicube");
+    run(SolverKind::jacobi, FormFactorMethod::hemicube);
+    ASSERT_EQ(runs.size(), 3u);
+    EXPECT_EQ(runs[1].history.back().unshot_share, 0.1 * static_cast<double>(snapshot_.revision));
+    drag(show, "convergence:clear", 0.5f, 0.5f);
+    ASSERT_EQ(runs.size(), 1u);
+    EXPECT_EQ(runs[0].name, "Jacobi, Hemicube");
+    Scene other = *snapshot_.scene;
+    other.geometry = std::make_shared<const Geometry>();
+    snapshot_.scene = std::make_shared<const Scene>(other);
+    snapshot_.history.clear();
+    ++snapshot_.revision;
+    frame(show);
+    EXPECT_TRUE(runs.empty());
 }
 
 TEST_F(PanelsTest, ReadoutsDrawWithAndWithoutAnythingToShow) {
