@@ -60,7 +60,8 @@ public:
 
     void set_sources(HierarchySources sources); // keeps the links, and the solution so far as the first guess
 
-    bool step(const std::atomic<bool>& cancel); // about 5 ms; false when nothing is left to do, or it has failed
+    bool
+    step(const std::atomic<bool>& cancel); // about 5 ms or a sweep; false when nothing is left to do, or it has failed
     const std::string& failure() const { return failure_; }
 
     const ElementTree& tree() const { return tree_; }

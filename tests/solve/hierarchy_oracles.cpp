@@ -91,17 +91,16 @@ Scene cornell() {
 TEST(Oracles, FluxNeedsFewerLinksThanFormFactorsOnTheCornellBox) {
     const Scene scene = cornell();
     const Truth truth = truth_of(scene);
-    struct Run {
-        RefinementOracle oracle;
-        double tolerance;
-    };
     std::vector<Measured> by_form_factor, by_flux;
-    for (const double f : {0.2, 0.1, 0.05, 0.025})
+    for (const double f : {0.2, 0.05}) // RMS 24 % with 86,000 links, 14 % with 516,000
         by_form_factor.push_back(measured(scene, RefinementOracle::form_factor, f, 0.05, truth));
-    for (const double flux : {2e-3, 5e-4, 1.25e-4, 3e-5})
+    for (const double flux : {2e-3, 1.25e-4}) // 22 % with 1,400 links, 11 % with 25,000
         by_flux.push_back(measured(scene, RefinementOracle::flux, flux, 0.05, truth));
-    for (const auto* runs : {&by_form_factor, &by_flux})
-        for (const Measured& m : *runs)
-            fmt::print("{}: {:.0f} links, RMS {:.2f} %, p99 {:.1f} %\n", runs == &by_flux ? "Oracle2" : "Oracle1",
-                       m.links, 100 * m.rms, 100 * m.p99);
+    for (std::size_t k = 0; k < 2; ++k) {
+        fmt::print("Oracle1: {:.0f} links, RMS {:.1f} %; Oracle2: {:.0f} links, RMS {:.1f} %\n",
+                   by_form_factor[k].links, 100 * by_form_factor[k].rms, by_flux[k].links, 100 * by_flux[k].rms);
+        EXPECT_LT(by_flux[k].rms, by_form_factor[k].rms);
+        EXPECT_LT(by_flux[k].links, by_form_factor[k].links / 3);
+    }
+    EXPECT_LT(by_flux[1].rms, 0.7 * by_flux[0].rms);
 }
