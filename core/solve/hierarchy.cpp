@@ -67,8 +67,9 @@ bool Hierarchy::step(const std::atomic<bool>& cancel) {
             refine_some();
             break;
         case Phase::sweep:
+            // One a step: what is shown between rounds, and read by the next, must not depend on the time.
             sweep();
-            break;
+            return phase_ != Phase::settled && phase_ != Phase::failed;
         case Phase::settled:
         case Phase::failed:
             break;

@@ -60,7 +60,8 @@ public:
 
     void set_sources(HierarchySources sources); // keeps the links, and the solution so far as the first guess
 
-    bool step(const std::atomic<bool>& cancel); // about 5 ms; false when nothing is left to do, or it has failed
+    bool
+    step(const std::atomic<bool>& cancel); // about 5 ms or a sweep; false when nothing is left to do, or it has failed
     const std::string& failure() const { return failure_; }
 
     const ElementTree& tree() const { return tree_; }
@@ -156,7 +157,7 @@ private:
     std::vector<float> brightness_, brightness_spread_; // of B, weighted
     std::vector<float> direct_brightness_;              // of direct irradiance, weighted; of elements
     double mean_irradiance_ = 0, total_area_ = 0, emitted_flux_ = 0, mean_rho_ = 0;
-    double residual_ = 1, last_residual_ = 1, estimated_error_ = 1, error_bound_ = 1;
+    double residual_ = 1, last_residual_ = 1, estimated_error_ = 1, links_error_ = 1, error_bound_ = 1;
     std::vector<float> extrapolation_; // of the next sweep, by channel
     std::vector<double> change_before_, ratio_before_;
     std::uint32_t sweeps_since_ = 0;

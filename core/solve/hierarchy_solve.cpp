@@ -217,7 +217,7 @@ void Hierarchy::sweep() {
         return;
     }
     const bool good = settings_.oracle == RefinementOracle::error && settings_.tolerance == 0 &&
-                      estimated_error_ <= settings_.target_error;
+                      links_error_ <= settings_.target_error; // what the sweeps leave is swept away
     if (good || (last_round && !cut_any_) || (settings_.oracle == RefinementOracle::form_factor)) {
         phase_ = residual_ <= settled_residual ? Phase::settled : Phase::sweep;
         return;
@@ -250,7 +250,7 @@ void Hierarchy::push_and_pull(bool sources_only) {
             const float step = b - b_[n][c];
             change[k] += double(node.live_area()) * double(step) * double(step);
             norm[k] += double(node.live_area()) * double(b) * double(b);
-            b_[n][c] = std::max(0.0f, b + extrapolation_[k] * step);
+            b_[n][c] = extrapolation_[k] > 0 ? std::max(0.0f, b + extrapolation_[k] * step) : b;
         }
         brightness_[n] = bright(b_[n]);
         light +=
@@ -336,7 +336,8 @@ void Hierarchy::measure_errors() {
         mean += area * h;
     });
     const double absorbed = std::max(1e-3, 1 - mean_rho_);
-    estimated_error_ = light > 0 ? std::min(1.0, std::sqrt(errors / light) + residual_ / absorbed) : 0;
+    links_error_ = light > 0 ? std::sqrt(errors / light) : 0;
+    estimated_error_ = std::min(1.0, links_error_ + residual_ / absorbed);
     error_bound_ = mean > 0 ? bounds / mean / absorbed + residual_ / absorbed : 0;
 }
 

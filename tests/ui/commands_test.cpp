@@ -29,6 +29,8 @@ TEST(Commands, KeysAskForThem) {
     EXPECT_EQ(command_for_key(GLFW_KEY_P, 0), Command::screenshot);
     EXPECT_EQ(command_for_key(GLFW_KEY_SPACE, 0), Command::pause);
     EXPECT_EQ(command_for_key(GLFW_KEY_TAB, 0), Command::toggle_panels);
+    EXPECT_EQ(command_for_key(GLFW_KEY_L, 0), Command::toggle_links);
+    EXPECT_EQ(command_for_key(GLFW_KEY_V, 0), Command::toggle_levels);
     // S alone walks back; it must not save.
     EXPECT_EQ(command_for_key(GLFW_KEY_S, 0), std::nullopt);
     EXPECT_EQ(command_for_key(GLFW_KEY_TAB, GLFW_MOD_ALT), std::nullopt);

@@ -5,13 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/scene/scene_file.h"
 #include "core/solve/solution_state.h"
-#include "core/view/measure.h"
 #include "core/view/picture.h"
 #include "tests/support/scenes.h"
-#include "tests/support/source_folder.h"
-#include "tests/support/surface_points.h"
 
 using namespace lueur;
 
@@ -25,12 +21,6 @@ Scene hierarchical(Scene scene, RefinementOracle oracle, double tolerance, doubl
     return scene;
 }
 
-Scene cornell() {
-    auto loaded = load_scene(test::source_folder() / "assets/cornell.toml");
-    EXPECT_TRUE(loaded);
-    return loaded ? loaded->scene : Scene{};
-}
-
 // A wall 4 m wide with a small bright lamp close in front of one corner: cut finely there, coarsely elsewhere.
 Scene wall_of_mixed_levels() {
     test::SceneBuilder b;
@@ -40,7 +30,6 @@ Scene wall_of_mixed_levels() {
         b.polygon("lamp", black, {{0.4f, 0.4f, 0.3f}, {0.4f, 0.6f, 0.3f}, {0.6f, 0.6f, 0.3f}, {0.6f, 0.4f, 0.3f}});
     b.light("lamp", {lamp}, PowerUnit::lumen, 500);
     Scene scene = b.build();
-    scene.solve.element_size = 2;
     scene.camera.position = {2, 1.5, 4};
     scene.camera.target = {2, 1.5, 0};
     scene.camera.vertical_fov_degrees = 40;
