@@ -7,7 +7,7 @@
 namespace lueur {
 namespace {
 
-constexpr std::array<CommandInfo, 27> table{{
+constexpr std::array<CommandInfo, 28> table{{
     {Command::open, "Open...", "Ctrl+O"},
     {Command::save, "Save", "Ctrl+S"},
     {Command::save_as, "Save as...", "Ctrl+Shift+S"},
