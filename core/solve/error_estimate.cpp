@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <numbers>
 
 #include <tbb/parallel_sort.h>
@@ -407,12 +405,6 @@ void estimate_error(const State& s, Field& field) {
     }
     set_relative_error(light, field);
     field.interval_factor = interval_factor(probes, field.error);
-    if (std::getenv("LUEUR_DEBUG_ERROR"))
-        std::fprintf(
-            stderr,
-            "direct %.3f indirect %.3f between %.3f missing %.4f mean %.2f caught %.2f factor %.2f probes %zu\n",
-            direct_factor, indirect_factor, between_factor, missing, light.mean, light.caught, field.interval_factor,
-            probes.size());
     field.scene_error =
         std::min(1.0, relative_rms(light.total, field.error, field.interpolation_error, area, left_out));
 }
