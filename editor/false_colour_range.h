@@ -2,6 +2,7 @@
 // walks about and is the same in the window and in files.
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "core/display/false_colour.h"
@@ -14,5 +15,9 @@ namespace lueur {
 // its room would have the scale for itself.
 FalseColourSettings fitted_to(const FalseColourSettings& scale, const Field& field, const std::vector<float>& areas,
                               PictureQuantity quantity);
+
+// The scale and the unit of a quantity that false colours show; that of colour differences is the same for all.
+const FalseColourSettings& scale_of(const DisplaySettings& display, PictureQuantity quantity);
+std::string_view unit_of(PictureQuantity quantity);
 
 } // namespace lueur

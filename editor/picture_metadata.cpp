@@ -20,6 +20,10 @@ std::string to_string(PictureQuantity quantity) {
         return "luminance";
     case PictureQuantity::illuminance:
         return "illuminance";
+    case PictureQuantity::colour_difference:
+        return "colour_difference";
+    case PictureQuantity::error:
+        return "error";
     }
     return {};
 }
@@ -138,7 +142,8 @@ std::expected<PictureRecipe, std::string> recipe_from_metadata(const ImageMetada
     if (const auto* name = words.find("scene_name")) recipe.scene_name = *name;
     if (const auto path = metadata.find("lueur:scene_path"); path != metadata.end()) recipe.scene_file = path->second;
     words.choice("quantity", recipe.quantity,
-                 std::array{PictureQuantity::colour, PictureQuantity::luminance, PictureQuantity::illuminance});
+                 std::array{PictureQuantity::colour, PictureQuantity::luminance, PictureQuantity::illuminance,
+                            PictureQuantity::colour_difference, PictureQuantity::error});
     words.choice("solver", recipe.solve.solver, all_solvers);
     words.choice("form_factors", recipe.solve.form_factors, all_form_factor_methods);
     words.number("form_factor_samples", recipe.solve.form_factor_samples);

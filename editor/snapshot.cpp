@@ -3,6 +3,7 @@
 #include "core/scene/luminaire.h"
 #include "core/spectrum/colour.h"
 #include "core/view/picture.h"
+#include "core/view/radiance_channels.h"
 
 namespace lueur {
 
@@ -31,6 +32,8 @@ std::optional<Probe> probe(const Snapshot& snapshot, glm::vec3 origin, glm::vec3
     if (const auto channels = irradiance_channels(*snapshot.field, *point); !channels.empty()) {
         result.irradiance_spectrum = spectrum_from_channels(*snapshot.field->wavelengths, channels);
         result.irradiance_watts = watts_from_channels(*snapshot.field->wavelengths, channels);
+        result.radiance_watts =
+            watts_from_channels(*snapshot.field->wavelengths, radiance_channels(scene, *snapshot.field, *point));
     }
     return result;
 }

@@ -16,7 +16,8 @@
 
 namespace lueur {
 
-class World; // core/transport/world.h
+class World;          // core/transport/world.h
+struct HierarchyView; // core/solve/hierarchy_view.h
 
 struct Snapshot {
     std::uint64_t revision = 0;          // grows with each publication
@@ -25,6 +26,7 @@ struct Snapshot {
     std::shared_ptr<const Mesh> mesh; // null before the first mesh; the same pointer while it has not changed
     std::shared_ptr<const World> world;
     std::shared_ptr<const Field> field;
+    std::shared_ptr<const HierarchyView> hierarchy; // of the hierarchical solver; else null
     SolveStatus status;
     std::vector<ConvergencePoint> history;
 };
@@ -41,6 +43,7 @@ struct Probe {
         irradiance_spectrum;     // W m^-2 nm^-1; empty with rgb wavelengths and where the scene is too large to keep it
     double irradiance_watts = 0; // W m^-2, 380..780 nm
     Xyz radiance{0};             // towards the eye, Y in cd m^-2; textures included
+    double radiance_watts = 0;   // W m^-2 sr^-1, 380..780 nm; 0 where irradiance_spectrum is empty
     Rgb rgb{0};                  // linear sRGB of the radiance, cd m^-2
     float error = 0;             // lx, one standard deviation of the illuminance
     double interval_factor = 1.96; // times that: 95 %

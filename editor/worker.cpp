@@ -133,6 +133,7 @@ void Worker::State::publish(bool is_paused) {
     next->scene = solution->scene();
     next->mesh = solution->mesh();
     next->world = solution->world();
+    next->hierarchy = solution->hierarchy();
     // An edit of the display or the camera shows the same light.
     next->field = field_stale || !snapshot->field ? solution->field() : snapshot->field;
     field_stale = false;

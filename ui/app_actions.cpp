@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "core/display/calibration.h"
+#include "core/display/image_file.h"
 #include "core/scene/files.h"
 #include "core/scene/scene_file.h"
 #include "core/spectrum/read_spectrum.h"
@@ -147,7 +149,7 @@ void EditorWindow::apply(const Edit& edit) {
     submit(narrowed(*stage, *before, document_.scene()));
 }
 
-void EditorWindow::save_picture(const std::filesystem::path& file) {
+void EditorWindow::save_picture(const std::filesystem::path& file, bool spectral) {
     ScreenshotParams params;
     params.snapshot = snapshot_;
     params.camera = document_.scene().camera;
@@ -160,7 +162,19 @@ void EditorWindow::save_picture(const std::filesystem::path& file) {
     params.height = std::max(view_.height, 16);
     params.scene_file = document_.file();
     params.output = file;
+    if (spectral) params.spectral = true, params.quantity = PictureQuantity::colour, params.false_colour = false;
     screenshots_.start(std::move(params));
+}
+
+// As large as a monitor shows it whole; its lines are pixels.
+void EditorWindow::save_calibration(const std::filesystem::path& file) {
+    constexpr int width = 1920, height = 1080;
+    const DisplaySettings& display = document_.scene().display;
+    const auto picture = calibration_picture(width, height, display.curve, display.gamma);
+    if (auto written = write_display_image(file, picture, {}); !written)
+        say(Severity::error, written.error());
+    else
+        say(Severity::note, "Saved " + file.string() + "; look at it pixel for pixel.");
 }
 
 void EditorWindow::do_command(Command command) {
@@ -178,10 +192,13 @@ void EditorWindow::do_command(Command command) {
         state_.file_request = FileRequest{FilePurpose::save_scene, {}, {}, {}};
         break;
     case Command::screenshot:
-        save_picture(new_screenshot_file());
+        save_picture(new_screenshot_file(), false);
         break;
     case Command::screenshot_as:
         state_.file_request = FileRequest{FilePurpose::save_picture, {}, {}, {}};
+        break;
+    case Command::spectral_picture_as:
+        state_.file_request = FileRequest{FilePurpose::save_spectral_picture, {}, {}, {}};
         break;
     case Command::quit:
         ask_first({true, {}});
@@ -227,6 +244,12 @@ void EditorWindow::do_command(Command command) {
         break;
     case Command::toggle_panels:
         state_.layout.panels_visible = !state_.layout.panels_visible;
+        break;
+    case Command::toggle_links:
+        state_.links_shown = !state_.links_shown;
+        break;
+    case Command::toggle_levels:
+        state_.levels_shown = !state_.levels_shown;
         break;
     case Command::toggle_probe:
         state_.layout.probe_at_cursor = !state_.layout.probe_at_cursor;
@@ -326,6 +349,13 @@ void EditorWindow::request_file(const FileRequest& request) {
     case FilePurpose::save_picture: // the first ending is the one that a name without any gets
         browser_.open("Save the picture", {".png", ".jpg", ".tif", ".exr", ".hdr"}, true, new_screenshot_file());
         break;
+    case FilePurpose::save_spectral_picture:
+        browser_.open("Save the picture at 41 wavelengths", {".exr"}, true,
+                      new_screenshot_file().replace_extension(".exr"));
+        break;
+    case FilePurpose::save_calibration_picture:
+        browser_.open("Save the calibration picture", {".png", ".tif"}, true, "calibration.png");
+        break;
     case FilePurpose::reflectance_spectrum:
         browser_.open("Spectrum of a reflectance", spectrum_extensions(), false, folder);
         break;
@@ -356,7 +386,13 @@ void EditorWindow::file_chosen(const std::filesystem::path& file) {
         pending_after_save_ = false;
         break;
     case FilePurpose::save_picture:
-        save_picture(file);
+        save_picture(file, false);
+        break;
+    case FilePurpose::save_spectral_picture:
+        save_picture(file, true);
+        break;
+    case FilePurpose::save_calibration_picture:
+        save_calibration(file);
         break;
     case FilePurpose::reflectance_spectrum:
         use(reflectance_edit(file, browsing_for_.column, document_.scene(), browsing_for_.material));

@@ -7,12 +7,13 @@
 namespace lueur {
 namespace {
 
-constexpr std::array<CommandInfo, 27> table{{
+constexpr std::array<CommandInfo, 29> table{{
     {Command::open, "Open...", "Ctrl+O"},
     {Command::save, "Save", "Ctrl+S"},
     {Command::save_as, "Save as...", "Ctrl+Shift+S"},
     {Command::screenshot, "Save picture", "F12 or P"},
     {Command::screenshot_as, "Save picture as...", "Shift+P"},
+    {Command::spectral_picture_as, "Save spectral picture as...", ""},
     {Command::quit, "Quit", "Ctrl+Q"},
     {Command::undo, "Undo", "Ctrl+Z"},
     {Command::redo, "Redo", "Ctrl+Y"},
@@ -28,6 +29,8 @@ constexpr std::array<CommandInfo, 27> table{{
     {Command::home, "Camera of the scene", "Home"},
     {Command::toggle_panels, "Hide or show the panels", "Tab"},
     {Command::toggle_probe, "Probe beside the pointer", "T"},
+    {Command::toggle_links, "Links of the place clicked at", "L"},
+    {Command::toggle_levels, "Outlines of the element levels", "V"},
     {Command::deselect, "Select nothing", "Esc"},
     {Command::pause, "Pause or go on solving", "Space"},
     {Command::step, "One step while paused", "."},
@@ -106,6 +109,10 @@ std::optional<Command> command_for_key(int key, int modifiers) {
         return Command::toggle_panels;
     case GLFW_KEY_T:
         return Command::toggle_probe;
+    case GLFW_KEY_L:
+        return Command::toggle_links;
+    case GLFW_KEY_V:
+        return Command::toggle_levels;
     case GLFW_KEY_ESCAPE:
         return Command::deselect;
     case GLFW_KEY_SPACE:

@@ -171,6 +171,10 @@ void calibration_rows(UiState& state, const DisplaySettings& display) {
     state.layout_log.widget("calibration");
     tooltip(state,
             "Rows: a quarter, a half and three quarters of the light of white. Columns: red, green, blue, grey.");
+    if (ImGui::Button("Save the picture..."))
+        state.file_request = FileRequest{FilePurpose::save_calibration_picture, {}, {}, {}};
+    state.layout_log.widget("save_calibration");
+    tooltip(state, "1920 x 1080 pixels, for a screen of its own: to be shown pixel for pixel.");
 }
 
 } // namespace lueur

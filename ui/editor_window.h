@@ -39,7 +39,8 @@ private:
     void show_scene(Document document);
     void open(const std::filesystem::path& file);
     bool save(const std::filesystem::path& file);
-    void save_picture(const std::filesystem::path& file);
+    void save_picture(const std::filesystem::path& file, bool spectral);
+    void save_calibration(const std::filesystem::path& file);
     void apply(const Edit& edit);
     void submit(Stage stage);
     void do_command(Command command);

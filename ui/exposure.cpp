@@ -70,8 +70,9 @@ bool update_exposure(Exposure& exposure, const DisplaySettings& scene, const Sna
         return false;
     }
     const bool settled = snapshot.status.settled;
-    const bool useful =
-        settled || snapshot.status.stage == SolveStage::solving || snapshot.status.stage == SolveStage::gathering_rays;
+    const bool useful = settled || snapshot.status.stage == SolveStage::solving ||
+                        snapshot.status.stage == SolveStage::gathering_rays ||
+                        snapshot.status.stage == SolveStage::form_factors;
     if (!useful) return false;
     const bool first = !exposure.chosen;
     const bool first_settled = settled && !exposure.final;

@@ -54,6 +54,7 @@ double menu_bar(const Document& document, const Preferences& preferences, UiStat
         item(state, Command::save_as);
         item(state, Command::screenshot);
         item(state, Command::screenshot_as);
+        item(state, Command::spectral_picture_as);
         ImGui::Separator();
         item(state, Command::quit);
         ImGui::EndMenu();
@@ -82,6 +83,10 @@ double menu_bar(const Document& document, const Preferences& preferences, UiStat
         ImGui::Separator();
         item(state, Command::toggle_panels, state.layout.panels_visible);
         item(state, Command::toggle_probe, state.layout.probe_at_cursor);
+        ImGui::Separator();
+        item(state, Command::toggle_links, state.links_shown);
+        item(state, Command::toggle_levels, state.levels_shown);
+        ImGui::Separator();
         if (ImGui::BeginMenu("Size of the interface")) {
             for (const double scale : {0.75, 0.9, 1.0, 1.1, 1.25, 1.5, 1.75, 2.0, 2.5})
                 if (ImGui::MenuItem(fmt::format("{:.0f} %", 100 * scale).c_str(), nullptr,

@@ -47,12 +47,18 @@ void probe_readout(const Document& document, UiState& state) {
         what += "  (" + scene.luminaires[at(*probe.luminaire)].name + ")";
     row(state, "Object", what);
     row(state, "Material", scene.materials[at(probe.material)].name);
+    if (!probe.irradiance_spectrum.nm.empty())
+        row(state, "In watts",
+            fmt::format("{} W/m²   {} W/(m² sr)", short_number(probe.irradiance_watts),
+                        short_number(probe.radiance_watts)));
     row(state, "RGB cd/m²", three(probe.rgb));
     row(state, "XYZ cd/m²", three(probe.radiance));
     const auto xy = chromaticity(probe.radiance);
     row(state, "x  y", fmt::format("{:.4f}   {:.4f}", xy.x, xy.y));
     row(state, "Position m",
         fmt::format("{:.3f}   {:.3f}   {:.3f}", probe.position.x, probe.position.y, probe.position.z));
+    if (probe.colour_difference > 0)
+        row(state, "From RGB", fmt::format("{:.2f} dE2000", static_cast<double>(probe.colour_difference)));
     row(state, "Unshot", short_number(static_cast<double>(probe.unshot)) + " lm/m²");
     ImGui::PopStyleVar();
     ImGui::PopFont();

@@ -248,7 +248,7 @@ void Renderer::draw_mesh(const RenderParams& params, double max_display) {
                                                                         : unshot_);
     glVertexAttribPointer(5, 1, GL_FLOAT, GL_FALSE, 0, nullptr);
     use_shades(shades_);
-    if (params.view == ViewMode::side_by_side && field_->trichromatic) { // the middle of the scene twice
+    if (params.view == ViewMode::side_by_side && field_->trichromatic) { // one picture, a half each
         const int left = target_->width / 2;
         glEnable(GL_SCISSOR_TEST);
         glScissor(0, 0, left, target_->height);

@@ -28,8 +28,6 @@ constexpr bool shows_colour(ViewMode view) {
            view == ViewMode::side_by_side;
 }
 FalseColourSettings unshot_scale(float top); // five decades below `top`, lm m^-2
-FalseColourSettings difference_scale();      // CIEDE2000 of the trichromatic approach
-FalseColourSettings error_scale();           // per cent of the illuminance, one standard deviation
 
 struct RenderParams {
     int width = 0, height = 0; // pixels

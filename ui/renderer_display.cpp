@@ -82,22 +82,6 @@ FalseColourSettings unshot_scale(float top) {
     return scale;
 }
 
-FalseColourSettings difference_scale() {
-    FalseColourSettings scale;
-    scale.low = 0.2; // nobody sees it
-    scale.high = 20; // another colour
-    scale.levels = {1, 2, 5, 10};
-    return scale;
-}
-
-FalseColourSettings error_scale() {
-    FalseColourSettings scale;
-    scale.low = 0.1;
-    scale.high = 100;
-    scale.levels = {1, 2, 5, 10};
-    return scale;
-}
-
 unsigned Renderer::display_variant(const RenderParams& params) const {
     const DisplaySettings& display = params.display;
     const bool colour = params.view != ViewMode::luminance && shows_colour(params.view);
@@ -144,7 +128,7 @@ void Renderer::draw_display(const RenderParams& params, double divisor) {
         break;
     case ViewMode::difference:
         uniforms.set("quantity", 1);
-        set_scale(uniforms, difference_scale());
+        set_scale(uniforms, colour_difference_scale());
         break;
     case ViewMode::error:
         uniforms.set("quantity", 1);

@@ -143,7 +143,7 @@ void Renderer::upload_field(const Field& field) {
     std::vector<float> difference = field.colour_difference;
     difference.resize(field.unshot.size(), 0.0f);
     fill(GL_ARRAY_BUFFER, difference_, difference, GL_STREAM_DRAW);
-    fill(GL_ARRAY_BUFFER, error_, relative_errors(field), GL_STREAM_DRAW);
+    fill(GL_ARRAY_BUFFER, error_, field.relative_error, GL_STREAM_DRAW);
     fill(GL_ARRAY_BUFFER, unshot_, field.unshot, GL_STREAM_DRAW);
     std::vector<float> illuminance; // lx
     illuminance.reserve(field.irradiance_xyz.size());

@@ -11,6 +11,8 @@
 #include "core/display/image_file.h"
 #include "core/display/legend.h"
 #include "core/view/picture.h"
+#include "core/view/spectral_picture.h"
+#include "editor/false_colour_range.h"
 #include "editor/picture_metadata.h"
 
 namespace lueur {
@@ -22,10 +24,9 @@ std::expected<void, std::string> write(const ScreenshotParams& params, const Rad
     add_display_metadata(metadata, params.display, params.false_colour);
     const bool deep = params.bits == 16 && !is_jpeg_name(params.output);
     if (params.false_colour) {
-        const bool lux = params.quantity == PictureQuantity::illuminance;
-        const FalseColourSettings& scale = lux ? params.display.illuminance_scale : params.display.luminance_scale;
+        const FalseColourSettings& scale = scale_of(params.display, params.quantity);
         const auto write_one = [&](auto picture) {
-            draw_legend(picture, scale, lux ? "lx" : "cd/m2");
+            draw_legend(picture, scale, unit_of(params.quantity));
             return write_display_image(params.output, picture, metadata);
         };
         return deep ? write_one(deep_false_colour_image(image, scale)) : write_one(false_colour_image(image, scale));
@@ -39,14 +40,33 @@ std::expected<std::filesystem::path, std::string> save(const ScreenshotParams& p
     const auto& snapshot = *params.snapshot;
     if (!snapshot.scene || !snapshot.mesh || !snapshot.world || !snapshot.field)
         return std::unexpected("There is no picture to save yet.");
-    const FieldView view{snapshot.scene, snapshot.mesh, snapshot.world, snapshot.field};
+    FieldView view{snapshot.scene, snapshot.mesh, snapshot.world, snapshot.field};
     PictureParams size;
     size.width = params.width;
     size.height = params.height;
-    const auto image = render_picture(view, params.camera, size, params.quantity, cancel);
+    auto image = render_picture(view, params.camera, size, params.quantity, cancel);
+    if (params.beside_rgb && snapshot.field->trichromatic && !cancel) {
+        view.trichromatic = true;
+        const auto rgb = render_picture(view, params.camera, size, params.quantity, cancel);
+        for (std::size_t i = 0; i < rgb.xyz.size(); ++i)
+            if (static_cast<int>(i) % params.width >= params.width / 2) image.xyz[i] = rgb.xyz[i];
+    }
+    SpectralImage spectral;
+    if (params.spectral && !cancel) {
+        spectral = render_spectral_picture(view, params.camera, size, cancel);
+        if (!cancel && spectral.planes.empty())
+            return std::unexpected(
+                "The spectral picture was not saved: it needs other wavelengths than RGB, and a scene "
+                "small enough to keep its channels.");
+    }
     if (cancel) return std::unexpected("The picture was not saved: cancelled.");
     const auto metadata =
         picture_metadata(*snapshot.scene, params.scene_file, params.camera, snapshot.status, params.quantity);
+    if (params.spectral) {
+        if (auto written = write_spectral_image(params.output, spectral, image, metadata); !written)
+            return std::unexpected(written.error());
+        return params.output;
+    }
     if (auto written = write(params, image, metadata); !written) return std::unexpected(written.error());
     return params.output;
 }
@@ -54,13 +74,20 @@ std::expected<std::filesystem::path, std::string> save(const ScreenshotParams& p
 } // namespace
 
 void take_view(ScreenshotParams& params, ViewMode view) {
+    params.beside_rgb = view == ViewMode::side_by_side;
     switch (view) {
+    case ViewMode::difference:
+        params.quantity = PictureQuantity::colour_difference;
+        params.false_colour = true;
+        return;
+    case ViewMode::error:
+        params.quantity = PictureQuantity::error;
+        params.false_colour = true;
+        return;
     case ViewMode::shaded:
     case ViewMode::elements:
     case ViewMode::unshot:
     case ViewMode::side_by_side:
-    case ViewMode::difference:
-    case ViewMode::error:
         params.quantity = PictureQuantity::colour;
         params.false_colour = false;
         return;

@@ -26,6 +26,8 @@ struct ScreenshotParams {
     bool false_colour = false; // of a luminance or illuminance
     int width = 1280, height = 800;
     int bits = 8;                     // a channel, or 16: .png and .tif
+    bool spectral = false;            // an .exr of 41 wavelengths
+    bool beside_rgb = false;          // the right half by the trichromatic approach
     std::filesystem::path scene_file; // named in the metadata
     std::filesystem::path output;     // its ending says the kind: .png .jpg .tif as displayed, .exr .hdr as radiance
 };

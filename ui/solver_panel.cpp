@@ -58,12 +58,24 @@ void status_figures(const SolveStatus& status, const UiState& state) {
     ImGui::PushFont(state.fonts.small);
     ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {2 * state.scale, 1 * state.scale});
     if (ImGui::BeginTable("##figures", 4, ImGuiTableFlags_SizingStretchSame)) {
-        figure(state, "Receivers", count(status.receivers), "Points that gather indirect light");
+        const bool linked = status.links > 0; // the hierarchical solver has no rows
+        if (linked)
+            figure(state, "Links", count(status.links), "Between elements and clusters, one way each (L shows them)");
+        else
+            figure(state, "Receivers", count(status.receivers), "Points that gather indirect light");
         figure(state, "Rays", count(status.rays), "Traced since the mesh was made");
         figure(state, "Elements", count(status.elements), "Triangles that are drawn and interpolated");
-        figure(state, "a receiver", count(status.rays_per_receiver), "Hemisphere rays a receiver");
+        if (linked)
+            figure(state, "Leaves", count(status.link_elements),
+                   fmt::format("Elements that are cut no further, in levels 0 to {} (V shows them)", status.link_levels)
+                       .c_str());
+        else
+            figure(state, "a receiver", count(status.rays_per_receiver), "Hemisphere rays a receiver");
         figure(state, "Vertices", count(status.vertices), "Of the fine mesh");
-        figure(state, "Row entries", count(status.row_entries), "Kept: who sees whom, and how much");
+        if (linked)
+            figure(state, "Rounds", count(status.link_rounds), "Of refinement, with a solution between two");
+        else
+            figure(state, "Row entries", count(status.row_entries), "Kept: who sees whom, and how much");
         figure(state, "Sweeps", count(status.sweeps), "Over all rows");
         figure(state, "Shots", count(status.shots), "Patches that have shot their light");
         figure(state, "Residual", status.residual > 0 ? fmt::format("{:.1e}", status.residual) : "0",

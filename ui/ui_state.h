@@ -29,7 +29,16 @@ enum class ViewMode { shaded, elements, unshot, luminance, illuminance, side_by_
 enum class ChromaticityScale { xy, uv }; // CIE 1931 x y, CIE 1976 u' v'
 
 // Which file the browser is open for.
-enum class FilePurpose { open_scene, save_scene, save_picture, reflectance_spectrum, emission_spectrum, texture };
+enum class FilePurpose {
+    open_scene,
+    save_scene,
+    save_picture,
+    save_spectral_picture,
+    save_calibration_picture,
+    reflectance_spectrum,
+    emission_spectrum,
+    texture
+};
 struct FileRequest {
     FilePurpose purpose = FilePurpose::open_scene;
     MaterialIndex material{};
@@ -65,6 +74,13 @@ struct UiState {
     std::optional<LuminaireIndex> luminaire; // unfolded in the luminaires panel
     bool show_luminaires = false;            // bring the luminaires tab to the front once
     std::optional<Probe> hovered;
+
+    // The hierarchical solver's links and elements over the picture.
+    struct Place {
+        glm::vec3 position, normal;
+    };
+    bool links_shown = false, levels_shown = false;
+    std::optional<Place> link_place; // clicked at
 
     Layout layout;
     Fonts fonts;

@@ -61,7 +61,7 @@ void legend(const UiState& state, const ViewportState& view, const DisplaySettin
         return;
     }
     case ViewMode::difference:
-        draw_legend(state, x, y, "Colour difference spectral - RGB, CIEDE2000", difference_scale());
+        draw_legend(state, x, y, "Colour difference spectral - RGB, CIEDE2000", colour_difference_scale());
         return;
     case ViewMode::error:
         draw_legend(state, x, y, "Estimated error of illuminance (one standard deviation), %", error_scale());
@@ -195,7 +195,9 @@ std::optional<Edit> viewport(const Document& document, const Snapshot& snapshot,
     if (known && view.hovered && !view.dragging) state.hovered = probe_at(snapshot, camera, view, mouse.x, mouse.y);
     if (clicked) {
         state.selected.reset();
+        state.link_place.reset();
         if (state.hovered) {
+            state.link_place = {state.hovered->position, state.hovered->normal};
             state.selected = state.hovered->object;
             state.material = state.hovered->material;
             if (state.hovered->luminaire) {
@@ -228,6 +230,10 @@ std::optional<Edit> viewport(const Document& document, const Snapshot& snapshot,
     view.draw_seconds = renderer.draw_seconds();
 
     if (!known || !snapshot.mesh) busy_note(state, view, snapshot);
+    const OverlayArea area{static_cast<float>(view.x), static_cast<float>(view.y), static_cast<float>(view.width),
+                           static_cast<float>(view.height)};
+    if (known && state.levels_shown) draw_levels(state, snapshot, camera, area, view.outlines);
+    if (known && state.links_shown) draw_links(state, snapshot, camera, area);
     legend(state, view, params.display);
     state.scales_in_use = {params.display.luminance_scale, params.display.illuminance_scale};
     if (known && view.refined && state.shares_wanted) state.shares = renderer.shares(params.display);

@@ -7,6 +7,7 @@
 #include "editor/document.h"
 #include "editor/snapshot.h"
 #include "ui/false_colour.h"
+#include "ui/link_overlay.h"
 #include "ui/renderer.h"
 #include "ui/ui_state.h"
 
@@ -27,6 +28,7 @@ struct ViewportState {
     bool drew_mesh = false;
     std::shared_ptr<const Field> unshot_field; // whose largest unshot value has been looked for
     FittedScales scales;                       // of the false colours
+    LevelOutlines outlines;                    // of the element levels
     std::optional<Camera> home;                // the scene's own camera
 };
 

@@ -118,6 +118,30 @@ std::vector<double> isoline_levels(const FalseColourSettings& scale) {
     return scale.levels.empty() ? scale_ticks(scale) : scale.levels;
 }
 
+const FalseColourSettings& colour_difference_scale() {
+    static const FalseColourSettings scale = [] {
+        FalseColourSettings s;
+        s.low = 0.2;
+        s.high = 20;
+        s.automatic = false;
+        s.levels = {1, 2, 5, 10};
+        return s;
+    }();
+    return scale;
+}
+
+const FalseColourSettings& error_scale() {
+    static const FalseColourSettings scale = [] {
+        FalseColourSettings s;
+        s.low = 0.1;
+        s.high = 100;
+        s.automatic = false;
+        s.levels = {1, 2, 5, 10};
+        return s;
+    }();
+    return scale;
+}
+
 double isoline_strength(std::span<const double> levels, double value, const Neighbours& near, double width) {
     if (!(value > 0)) return 0;
     const auto slope = [&](double before, double after) { // of one axis, a pixel

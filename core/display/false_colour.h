@@ -29,6 +29,11 @@ FalseColourSettings fitted(FalseColourSettings scale, std::span<const float> val
 // The contours to draw: the scale's own, or its ticks.
 std::vector<double> isoline_levels(const FalseColourSettings& scale);
 
+// Of a colour difference (CIEDE2000): from what nobody sees to another colour.
+const FalseColourSettings& colour_difference_scale();
+// Of an estimated error, in per cent.
+const FalseColourSettings& error_scale();
+
 // How much of a pixel the contours of a quantity cover, 0..1. A contour runs where |value - level| is less than half
 // its width times the gradient; the gradient takes on each axis the smaller of the differences to both neighbours, so
 // that the edge of an object is no contour. Neighbours of 0 or less are not there. `width` in pixels.

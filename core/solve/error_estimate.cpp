@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <numbers>
 
 #include <tbb/parallel_sort.h>
@@ -94,26 +96,49 @@ std::vector<float> neighbour_differences(std::span<const glm::uvec3> elements,
 struct Light {
     std::vector<float> total, direct, indirect, reflected, area;
     std::vector<float> direct_variance;
+    std::vector<float> unlit; // direct light of luminaires that have not shot yet
     std::vector<std::uint8_t> buried;
     double mean = 0, total_area = 0; // over the surfaces that are not buried
+    double caught = 1;               // of the luminaires' flux by the surfaces: 1 in a closed scene
 };
+
+// Buried vertices that share an element with one that is not: half of what is around them is seen, and what is shown
+// there is made up of the neighbours.
+std::vector<std::uint8_t> rim_of(const Mesh& mesh, const std::vector<std::uint8_t>& buried) {
+    std::vector<std::uint8_t> rim(buried.size(), 0);
+    for (const glm::uvec3& e : mesh.elements)
+        if (const int inside = buried[e.x] + buried[e.y] + buried[e.z]; inside == 1 || inside == 2)
+            for (int k = 0; k < 3; ++k) rim[e[k]] = buried[e[k]];
+    return rim;
+}
+
+// Of each luminaire that has been lit, lm m^-2.
+std::vector<double> luminous_exitances(const State& s) {
+    std::vector<double> exitance;
+    for (std::size_t l = 0; l < s.direct->emitter_count(); ++l)
+        exitance.push_back(s.luminaire_is_lit(l)
+                               ? xyz_from_channels(*s.wavelengths, std::span<const double>(s.luminaire_exitance[l])).y
+                               : 0);
+    return exitance;
+}
 
 Light light_of(const State& s, const Field& field) {
     Light light;
     const std::size_t count = field.irradiance_xyz.size(), emitters = s.direct->emitter_count();
     light.area = vertex_areas(s.mesh);
     light.buried = s.all_buried();
-    std::vector<double> exitance;
-    for (std::size_t l = 0; l < emitters; ++l)
-        exitance.push_back(s.luminaire_is_lit(l)
-                               ? xyz_from_channels(*s.wavelengths, std::span<const double>(s.luminaire_exitance[l])).y
-                               : 0);
+    const std::vector<double> exitance = luminous_exitances(s);
+    std::vector<double> all; // lit or not
+    for (const auto& channels : s.luminaire_exitance)
+        all.push_back(xyz_from_channels(*s.wavelengths, std::span<const double>(channels)).y);
+    double caught = 0;
     for (std::uint32_t v = 0; v < count; ++v) {
-        double d = 0, variance = 0;
+        double d = 0, variance = 0, unlit = 0;
         for (std::size_t l = 0; l < emitters; ++l) {
             d += s.direct->at_vertex(v)[l] * exitance[l];
             const double deviation = s.direct->deviation_at_vertex(v)[l] * exitance[l];
             variance += deviation * deviation;
+            if (!s.luminaire_is_lit(l)) unlit += s.direct->at_vertex(v)[l] * all[l];
         }
         const float y = field.irradiance_xyz[v].y;
         light.total.push_back(y);
@@ -121,10 +146,15 @@ Light light_of(const State& s, const Field& field) {
         light.indirect.push_back(y - static_cast<float>(d));
         light.reflected.push_back(field.reflected_xyz[v].y * std::numbers::pi_v<float>);
         light.direct_variance.push_back(static_cast<float>(variance));
+        light.unlit.push_back(static_cast<float>(unlit));
         if (light.buried[v]) continue;
         light.mean += double(light.area[v]) * y;
         light.total_area += light.area[v];
+        caught += double(light.area[v]) * d;
     }
+    double emitted = 0;
+    for (std::size_t l = 0; l < emitters; ++l) emitted += exitance[l] * s.direct->emitters()[l].area;
+    if (emitted > 0) light.caught = std::clamp(caught / emitted, 0.0, 1.0);
     if (light.total_area > 0) light.mean /= light.total_area;
     return light;
 }
@@ -191,11 +221,7 @@ std::vector<Residual> residuals(const State& s, const Light& light, const Model&
     std::vector<Residual> list;
     if (!s.probes.complete()) return list;
     const std::size_t emitters = s.direct->emitter_count();
-    std::vector<double> exitance;
-    for (std::size_t l = 0; l < emitters; ++l)
-        exitance.push_back(s.luminaire_is_lit(l)
-                               ? xyz_from_channels(*s.wavelengths, std::span<const double>(s.luminaire_exitance[l])).y
-                               : 0);
+    const std::vector<double> exitance = luminous_exitances(s);
     constexpr int sets = ErrorProbes::sets, per_set = ErrorProbes::rays / sets;
     std::vector<float> reflected = light.reflected;
     reflected.push_back(0); // outside
@@ -237,10 +263,40 @@ struct Scale {
     }
 };
 
+void set_relative_error(const Light& light, Field& field) {
+    field.relative_error.assign(field.error.size(), 0);
+    for (std::size_t v = 0; v < field.error.size(); ++v) {
+        const double bright = std::max(double(light.total[v]), dark_share * light.mean);
+        if (bright > 0)
+            field.relative_error[v] = static_cast<float>(
+                100 * std::hypot(double(field.error[v]), double(field.interpolation_error[v])) / bright);
+    }
+}
+
+// Errors have longer tails than the normal distribution: so many standard deviations hold 95 % of the residuals at the
+// probed vertices, the probes' own noise counted in both.
+double interval_factor(const std::vector<Residual>& probes, const std::vector<float>& error) {
+    constexpr double normal = 1.96, most = 4;
+    std::vector<std::pair<double, double>> far; // standard deviations, area
+    double all = 0;
+    for (const Residual& r : probes) {
+        if (r.point->between) continue;
+        const double sigma = error[r.point->vertices.x];
+        const double deviation = std::sqrt(sigma * sigma + r.direct_noise + r.indirect_noise);
+        far.emplace_back(deviation > 0 ? std::abs(r.direct + r.indirect) / deviation : 0, r.point->area);
+        all += r.point->area;
+    }
+    std::sort(far.begin(), far.end());
+    double inside = 0;
+    for (const auto& [deviations, area] : far)
+        if ((inside += area) >= 0.95 * all) return std::clamp(deviations, normal, most);
+    return normal;
+}
+
 // Paths know their own error; between the vertices they are interpolated as any other.
 void estimate_traced_error(const State& s, const Light& light, Field& field) {
     const std::vector<float> bend = bends(s.mesh.elements, s.mesh, light.buried, light.total);
-    const WavelengthError& channels = s.wavelength_error;
+    const WavelengthError& channels = s.choice.illuminance_error;
     for (std::uint32_t v = 0; v < field.error.size(); ++v) {
         const double paths = s.traced->standard_error(v);
         const double wavelengths =
@@ -250,26 +306,13 @@ void estimate_traced_error(const State& s, const Light& light, Field& field) {
         const double bent = 0.0625 * (double(bend[v]) * bend[v] - 4 * paths * paths);
         field.interpolation_error[v] = static_cast<float>(std::sqrt(std::max(0.0, bent)));
     }
+    set_relative_error(light, field);
     field.interval_factor = 1.96 * batch_interval_factor;
     field.scene_error =
         std::min(1.0, relative_rms(light.total, field.error, field.interpolation_error, light.area, light.buried));
 }
 
 } // namespace
-
-std::vector<float> relative_errors(const Field& field) {
-    const std::size_t count = field.error.size();
-    double mean = 0;
-    for (const glm::vec3& h : field.irradiance_xyz) mean += double(h.y) / double(std::max<std::size_t>(1, count));
-    std::vector<float> per_cent(field.irradiance_xyz.size(), 0);
-    for (std::size_t v = 0; v < count; ++v) {
-        const double bright = std::max(double(field.irradiance_xyz[v].y), dark_share * mean);
-        if (bright > 0)
-            per_cent[v] = static_cast<float>(
-                100 * std::hypot(double(field.error[v]), double(field.interpolation_error[v])) / bright);
-    }
-    return per_cent;
-}
 
 double relative_rms(const std::vector<float>& illuminance, const std::vector<float>& deviation,
                     const std::vector<float>& between, const std::vector<float>& area,
@@ -293,6 +336,7 @@ void estimate_error(const State& s, Field& field) {
     const std::size_t count = field.irradiance_xyz.size();
     field.error.assign(count, 0);
     field.interpolation_error.assign(count, 0);
+    field.relative_error.assign(count, 0);
     if (count == 0 || !s.direct || s.phase == SolvePhase::mesh) return;
     const Light light = light_of(s, field);
     if (s.is_traced()) return estimate_traced_error(s, light, field);
@@ -300,7 +344,7 @@ void estimate_error(const State& s, Field& field) {
     const std::vector<Residual> probes = residuals(s, light, model);
 
     // Light that is missing everywhere: the mean residual is one reflection of it, all of it 1 / (1 - rho) times that.
-    const double rho = std::min(0.999, mean_luminous_reflectance(s));
+    const double rho = std::min(0.999, mean_luminous_reflectance(s) * light.caught);
     double missing = 0;
     if (!probes.empty()) {
         double mean = 0, area = 0, noise = 0;
@@ -325,7 +369,7 @@ void estimate_error(const State& s, Field& field) {
             else if (v < unshot.size())
                 flux += double(s.coarse_area[v]) * unshot[v];
         }
-        missing = light.total_area > 0 ? flux / light.total_area / (1 - rho) : 0;
+        missing = light.total_area > 0 ? light.caught * flux / light.total_area / (1 - rho) : 0;
     }
 
     Scale direct, indirect, between;
@@ -343,17 +387,34 @@ void estimate_error(const State& s, Field& field) {
             between.add(all * all - r.direct_noise - r.indirect_noise - at_vertices, r.model_between, r.weight);
         }
     const double between_factor = between.factor();
-    const WavelengthError& channels = s.wavelength_error;
+    const WavelengthError& channels = s.choice.illuminance_error;
     for (std::size_t v = 0; v < count; ++v) {
         const double wavelengths =
             std::abs(channels.direct * light.direct[v]) + std::abs(channels.reflected * light.indirect[v]);
         const double variance = direct_factor * model.direct[v] + indirect_factor * model.indirect[v] +
-                                missing * missing + wavelengths * wavelengths;
+                                missing * missing + wavelengths * wavelengths + double(light.unlit[v]) * light.unlit[v];
         field.error[v] = static_cast<float>(std::sqrt(variance));
         field.interpolation_error[v] = static_cast<float>(std::sqrt(between_factor * model.between[v]));
     }
+    std::vector<float> area = light.area;
+    std::vector<std::uint8_t> left_out = light.buried;
+    const std::vector<std::uint8_t> rim = rim_of(s.mesh, light.buried);
+    for (std::size_t v = 0; v < count; ++v) {
+        if (!rim[v]) continue;
+        field.error[v] = std::max(field.error[v], 0.5f * light.total[v]);
+        area[v] *= 0.5f;
+        left_out[v] = 0;
+    }
+    set_relative_error(light, field);
+    field.interval_factor = interval_factor(probes, field.error);
+    if (std::getenv("LUEUR_DEBUG_ERROR"))
+        std::fprintf(
+            stderr,
+            "direct %.3f indirect %.3f between %.3f missing %.4f mean %.2f caught %.2f factor %.2f probes %zu\n",
+            direct_factor, indirect_factor, between_factor, missing, light.mean, light.caught, field.interval_factor,
+            probes.size());
     field.scene_error =
-        std::min(1.0, relative_rms(light.total, field.error, field.interpolation_error, light.area, light.buried));
+        std::min(1.0, relative_rms(light.total, field.error, field.interpolation_error, area, left_out));
 }
 
 } // namespace lueur

@@ -27,6 +27,8 @@ struct Field : Shades {
     // interpolation adds between them. The interval in which 95 % of the true values lie is interval_factor of it to
     // both sides.
     std::vector<float> error, interpolation_error;
+    // Both together in per cent of the illuminance (of 2 % of the mean where it is darker): the map.
+    std::vector<float> relative_error;
     double interval_factor = 1.96;
     double scene_error = 1; // relative RMS over the surfaces, those darker than 2 % of the mean left out
     // The lecture's trichromatic approach beside it, when it was asked for; and how far apart the two are: CIEDE2000,
@@ -37,10 +39,6 @@ struct Field : Shades {
     ChannelField irradiance;
     std::shared_ptr<const Wavelengths> wavelengths;
 };
-
-// Standard deviation of the illuminance at each vertex and around it, in per cent of it (of 2 % of the mean where it is
-// darker).
-std::vector<float> relative_errors(const Field& field);
 
 inline constexpr std::size_t largest_channel_field = 12'000'000; // numbers: 48 MB
 

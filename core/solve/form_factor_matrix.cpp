@@ -64,29 +64,40 @@ bool fill_rows(FormFactorMatrix& matrix, const PatchScene& patches, FormFactorMe
     return cursor >= matrix.n;
 }
 
-double row_sum(const FormFactorMatrix& matrix, std::uint32_t i) {
-    double sum = 0;
-    for (std::uint32_t j = 0; j < matrix.n; ++j) sum += matrix.row(i)[j];
-    return sum;
+void transpose(FormFactorMatrix& matrix) {
+    constexpr std::uint32_t tile = 32;
+    const std::uint32_t tiles = (matrix.n + tile - 1) / tile;
+    tbb::parallel_for(std::uint32_t(0), tiles, [&](std::uint32_t ti) {
+        for (std::uint32_t tj = 0; tj <= ti; ++tj)
+            for (std::uint32_t i = ti * tile; i < std::min(matrix.n, (ti + 1) * tile); ++i)
+                for (std::uint32_t j = tj * tile; j < std::min(i, (tj + 1) * tile); ++j)
+                    std::swap(matrix.row(i)[j], matrix.row(j)[i]);
+    });
+    matrix.transposed = !matrix.transposed;
 }
 
 RowSums limit_row_sums(FormFactorMatrix& matrix) {
     constexpr double rounding = 1e-6; // of float rows: not worth a word
     RowSums found;
-    for (std::uint32_t i = 0; i < matrix.n; ++i) {
+    found.sum.assign(matrix.n, 0.0);
+    std::vector<double> given(matrix.n);
+    std::vector<std::uint8_t> broken(matrix.n);
+    tbb::parallel_for(std::uint32_t(0), matrix.n, [&](std::uint32_t i) {
         float* row = matrix.row(i);
-        bool broken = false;
-        double sum = 0;
         for (std::uint32_t j = 0; j < matrix.n; ++j) {
-            if (!(row[j] >= 0) || !std::isfinite(row[j])) row[j] = 0, broken = true;
-            sum += row[j];
+            if (!(row[j] >= 0) || !std::isfinite(row[j])) row[j] = 0, broken[i] = 1;
+            given[i] += row[j];
         }
-        found.broken += broken;
-        found.largest = std::max(found.largest, sum);
-        if (sum <= 1) continue;
-        found.above += sum > 1 + rounding;
-        const float scale = std::nextafter(static_cast<float>(1 / sum), 0.0f);
-        for (std::uint32_t j = 0; j < matrix.n; ++j) row[j] *= scale;
+        const float scale = given[i] > 1 ? std::nextafter(static_cast<float>(1 / given[i]), 0.0f) : 1.0f;
+        for (std::uint32_t j = 0; j < matrix.n; ++j) {
+            row[j] *= scale;
+            found.sum[i] += row[j];
+        }
+    });
+    for (std::uint32_t i = 0; i < matrix.n; ++i) {
+        found.above += given[i] > 1 + rounding;
+        found.largest = std::max(found.largest, given[i]);
+        found.broken += broken[i];
     }
     return found;
 }

@@ -20,9 +20,14 @@ struct FormFactorMatrix {
     std::vector<float> values; // F_ij at i * n + j: of what leaves i, the share that reaches j
     std::vector<float> area;   // m^2
 
-    float* row(std::uint32_t i) { return values.data() + std::size_t(i) * n; }
+    // Shots read columns: number by number they would cost a cache line each. Transposed, column j is where row j was.
+    bool transposed = false;
+
+    float* row(std::uint32_t i) { return values.data() + std::size_t(i) * n; } // not transposed
     const float* row(std::uint32_t i) const { return values.data() + std::size_t(i) * n; }
+    float at(std::uint32_t i, std::uint32_t j) const { return transposed ? row(j)[i] : row(i)[j]; }
 };
+void transpose(FormFactorMatrix& matrix); // in its place
 
 std::uint64_t matrix_bytes(std::uint64_t patches);
 std::string bytes_text(std::uint64_t bytes); // "49.9 MiB"
@@ -40,12 +45,11 @@ bool fill_rows(FormFactorMatrix& matrix, const PatchScene& patches, FormFactorMe
 // beside a shared edge, gives more, and with a reflectance near 1 no sweep would converge. Such rows are scaled down to
 // 1; others are left alone, for their light may leave the scene.
 struct RowSums {
+    std::vector<double> sum;  // of each row, as it is now
     std::uint32_t above = 0;  // rows that were scaled
     double largest = 0;       // as the method gave them
     std::uint32_t broken = 0; // rows with a number that is negative or not finite: those numbers are set to 0
 };
 RowSums limit_row_sums(FormFactorMatrix& matrix);
-
-double row_sum(const FormFactorMatrix& matrix, std::uint32_t i);
 
 } // namespace lueur

@@ -14,6 +14,7 @@
 #include <atomic>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -63,7 +64,11 @@ public:
     const std::string& failure() const { return failure_; }
 
     const ElementTree& tree() const { return tree_; }
-    const std::vector<Link>& links() const { return links_; } // by receiver; those of the last round while refining
+    const std::vector<Link>& links() const { return links_; }  // by receiver; those of the last round while refining
+    std::span<const Link> links_of(std::uint32_t node) const { // its own, not those of nodes above
+        return {links_.data() + first_link_[node], links_.data() + first_link_[node + 1]};
+    }
+    const NodePoints& points_of(std::uint32_t node) const { return points_[node]; }
     std::uint32_t link_count() const { return static_cast<std::uint32_t>(refining() ? kept_.size() : links_.size()); }
     std::uint32_t element_count() const; // leaves
     std::uint32_t level_count() const;   // cuts of the most finely cut surface
@@ -71,6 +76,8 @@ public:
     std::uint32_t rounds() const { return rounds_; } // of refinement
     std::uint64_t rays() const { return rays_; }
     bool refining() const { return phase_ == Phase::look || phase_ == Phase::refine; }
+    bool absorbs_nothing() const; // closed, and every reflectance 1: there is no finite solution
+    bool settled() const { return phase_ == Phase::settled; }
     double progress() const;                                    // of the round
     double residual() const { return residual_; }               // change of B in the last sweep / B, worst channel
     double estimated_error() const { return estimated_error_; } // relative RMS of irradiance, links' errors independent
@@ -84,7 +91,6 @@ public:
     const ChannelField& irradiance() const { return total_; }      // times scale
     float scale(std::uint32_t leaf) const { return scale_[leaf]; } // that makes its row sum to 1 where it should
     const ChannelField& radiosity() const { return b_; }           // of all nodes: mean over their area
-    const std::vector<float>& weights() const { return sources_.weight; }
     float brightness(std::uint32_t node) const { return brightness_[node]; } // of B, weighted
     bool buried(std::uint32_t node) const { return points_[node].count == 0; }
     float error_at(std::uint32_t leaf) const { return leaf_error_[leaf]; } // weighted irradiance
@@ -116,6 +122,7 @@ private:
     void resize_values();
     void set_leaf_source(std::uint32_t leaf);
     void push_and_pull(bool sources_only);
+    void extrapolate(const std::vector<double>& change);
     void measure_errors();
     void sum_rows();
     float bright(const float* channels) const;
@@ -150,6 +157,9 @@ private:
     std::vector<float> direct_brightness_;              // of direct irradiance, weighted; of elements
     double mean_irradiance_ = 0, total_area_ = 0, emitted_flux_ = 0, mean_rho_ = 0;
     double residual_ = 1, last_residual_ = 1, estimated_error_ = 1, error_bound_ = 1;
+    std::vector<float> extrapolation_; // of the next sweep, by channel
+    std::vector<double> change_before_, ratio_before_;
+    std::uint32_t sweeps_since_ = 0;
     std::uint32_t growing_ = 0; // sweeps in a row whose residual grew
 };
 

@@ -1,12 +1,13 @@
 #include "core/solve/hierarchy_field.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "core/transport/bisection.h"
+#include "core/transport/time_slice.h"
 
 namespace lueur {
 
@@ -47,47 +48,70 @@ float smallest_leaf(const ElementTree& tree, std::uint32_t n, const Box& box, fl
 
 } // namespace
 
-bool cut_mesh_to_leaves(const ElementTree& tree, Mesh& mesh, std::uint32_t most_vertices) {
-    Bisection bisection(mesh);
-    const std::size_t before = mesh.vertices.size();
-    for (std::uint32_t n = 0; n < mesh.nodes.size(); ++n) { // grows while it runs
-        const std::uint32_t root = root_of(tree, mesh, mesh.nodes[n].coarse);
-        if (root == no_index || tree.nodes[root].is_leaf()) continue;
-        while (mesh.nodes[n].children == no_index && mesh.vertices.size() < most_vertices) {
-            const glm::uvec3 v = mesh.nodes[n].vertices;
-            const int edge = bisection.longest_edge(n);
-            const float longest = std::sqrt(bisection.edge_length(v[edge], v[(edge + 1) % 3]));
-            Box box;
-            for (int k = 0; k < 3; ++k) box.add(mesh.vertices[v[k]].position);
-            const float tolerance = 1e-4f * longest;
-            if (longest <= 2.02f * smallest_leaf(tree, root, box, tolerance)) break;
-            bisection.split(n);
-        }
+namespace {
+
+// Looks at the clock now and then.
+class Slice {
+public:
+    explicit Slice(const std::atomic<bool>& cancel)
+        : cancel_(cancel) {}
+    bool over() {
+        if (++calls_ % 64 != 0) return false;
+        return cancel_.load(std::memory_order_relaxed) ||
+               std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count() > step_seconds;
     }
-    if (mesh.vertices.size() == before) return false;
-    list_leaves(mesh);
+
+private:
+    const std::atomic<bool>& cancel_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    std::uint32_t calls_ = 0;
+};
+
+} // namespace
+
+bool LeafMesh::cut(const ElementTree& tree, std::uint32_t most_vertices, const std::atomic<bool>& cancel) {
+    Slice slice(cancel);
+    while (node_ < mesh_.nodes.size()) { // grows while it runs
+        const std::uint32_t n = node_++;
+        const std::uint32_t root = root_of(tree, mesh_, mesh_.nodes[n].coarse);
+        if (root == no_index || tree.nodes[root].is_leaf()) continue;
+        while (mesh_.nodes[n].children == no_index && mesh_.vertices.size() < most_vertices) {
+            const glm::uvec3 v = mesh_.nodes[n].vertices;
+            const int edge = bisection_.longest_edge(n);
+            const float longest = std::sqrt(bisection_.edge_length(v[edge], v[(edge + 1) % 3]));
+            Box box;
+            for (int k = 0; k < 3; ++k) box.add(mesh_.vertices[v[k]].position);
+            if (longest <= 2.02f * smallest_leaf(tree, root, box, 1e-4f * longest)) break;
+            bisection_.split(n);
+        }
+        if (slice.over() && node_ < mesh_.nodes.size()) return false;
+    }
+    list_leaves(mesh_);
     return true;
 }
 
-std::vector<LeafReading> read_leaves(const ElementTree& tree, const Mesh& mesh) {
-    std::vector<LeafReading> readings(mesh.vertices.size());
-    for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-        const glm::uvec3 v = mesh.elements[e];
-        const std::uint32_t root = root_of(tree, mesh, mesh.element_coarse[e]);
+bool LeafMesh::read(const ElementTree& tree, const std::atomic<bool>& cancel) {
+    if (element_ == 0) readings_.assign(mesh_.vertices.size(), {});
+    Slice slice(cancel);
+    while (element_ < mesh_.elements.size()) {
+        const std::uint32_t e = element_++;
+        const glm::uvec3 v = mesh_.elements[e];
+        const std::uint32_t root = root_of(tree, mesh_, mesh_.element_coarse[e]);
         if (root == no_index) continue;
         const glm::vec3 centre =
-            (mesh.vertices[v.x].position + mesh.vertices[v.y].position + mesh.vertices[v.z].position) / 3.0f;
+            (mesh_.vertices[v.x].position + mesh_.vertices[v.y].position + mesh_.vertices[v.z].position) / 3.0f;
         for (int k = 0; k < 3; ++k) {
             // Of the leaves around a vertex the smallest: of a T-vertex that is one of which it is a corner.
-            const glm::vec3 p = mesh.vertices[v[k]].position;
+            const glm::vec3 p = mesh_.vertices[v[k]].position;
             const std::uint32_t leaf = leaf_under(tree, root, p + 0.01f * (centre - p));
-            LeafReading& reading = readings[v[k]];
+            LeafReading& reading = readings_[v[k]];
             if (reading.leaf != no_index && tree.nodes[reading.leaf].radius <= tree.nodes[leaf].radius) continue;
             reading.leaf = leaf;
             reading.weights = corner_weights(tree, leaf, p);
         }
+        if (slice.over()) return element_ >= mesh_.elements.size();
     }
-    return readings;
+    return true;
 }
 
 ChannelField irradiance_at_vertices(const Hierarchy& hierarchy, const std::vector<LeafReading>& readings, int channels,

@@ -90,7 +90,10 @@ LinkEstimate estimate_link(const World& world, const ElementTree& tree, const st
     const float part = std::max(r.live_area() / float(p.count), s.live_area() / float(q.count)); // m^2
     const auto looks = [&](std::size_t i, std::size_t j) {
         ++estimate.rays;
-        return !world.occluded({p.position[i], q.position[j] - p.position[i], 1e-5f, 1 - 1e-5f});
+        // The same ray for both links of a pair, so that both see the same.
+        const bool forward = receiver < source;
+        const glm::vec3 from = forward ? p.position[i] : q.position[j], to = forward ? q.position[j] : p.position[i];
+        return !world.occluded({from, to - from, 1e-5f, 1 - 1e-5f});
     };
     int facing = 0, clear = 0;
     const auto pc = static_cast<std::size_t>(p.count), qc = static_cast<std::size_t>(q.count);
@@ -120,23 +123,31 @@ LinkEstimate estimate_link(const World& world, const ElementTree& tree, const st
         }
 
     double all = 0, visible = 0;
-    std::array<double, link_points> all_at{}, visible_at{}, disk_at{};
+    std::array<double, link_points> all_at{}, visible_at{}, disk_at{},
+        disk_of{}; // of receiver points, of source points
+    int pairs = 0;
     for (std::size_t i = 0; i < pc; ++i)
         for (std::size_t j = 0; j < qc; ++j) {
             all_at[i] += g[i][j];
+            pairs += g[i][j] > 0;
             if (!seen[i][j]) continue;
             visible_at[i] += g[i][j];
             disk_at[i] += disk[i][j];
+            disk_of[j] += disk[i][j];
         }
     for (std::size_t i = 0; i < pc; ++i) all += all_at[i], visible += visible_at[i];
 
     std::array<double, link_points> at_point{}; // F of each of the receiver's points
-    double mean = 0;
+    double mean = 0, unsure = 0;                // standard error of F itself: of few points of a source, of few rays
     if (kernel == LinkKernel::disks || r.is_cluster() || s.is_cluster()) {
         for (std::size_t i = 0; i < pc; ++i) {
             at_point[i] = double(s.live_area()) * disk_at[i] / double(q.count);
             mean += at_point[i] / double(p.count);
         }
+        double square = 0;
+        for (std::size_t j = 0; j < qc; ++j)
+            square += std::pow(double(s.live_area()) * disk_of[j] / double(p.count) - mean, 2);
+        unsure = qc > 1 ? std::sqrt(square / double(qc * (qc - 1))) : 0;
     } else {
         const double share = all > 0 ? visible / all : 1; // none of the points face: slivers near an edge, all seen
         const auto exact = exact_from_points(tree, p, source);
@@ -149,12 +160,14 @@ LinkEstimate estimate_link(const World& world, const ElementTree& tree, const st
             for (const float f : exact_from_points(tree, q, receiver)) mean += f / double(q.count);
             mean *= share * s.live_share * s.area / r.area; // F_sr live_r, times A_s live_s / (A_r live_r)
         }
+        if (pairs > 0 && share > 0) unsure = mean * std::sqrt((1 - share) / (share * pairs));
     }
     double of_points = 0, square = 0;
     for (std::size_t i = 0; i < pc; ++i) of_points += at_point[i] / double(p.count);
     for (std::size_t i = 0; i < pc; ++i) square += (at_point[i] - of_points) * (at_point[i] - of_points);
     estimate.form_factor = static_cast<float>(std::min(mean, 1.0));
-    estimate.spread = static_cast<float>(p.count > 1 ? std::sqrt(square / double(p.count - 1)) : mean);
+    estimate.spread =
+        static_cast<float>(p.count > 1 ? std::sqrt(square / double(p.count - 1) + unsure * unsure) : mean);
     return estimate;
 }
 

@@ -34,7 +34,7 @@ enum class LinkKernel {
 
 struct LinkEstimate {
     float form_factor = 0; // F_rs
-    float spread = 0;      // standard deviation of F over the receiver
+    float spread = 0; // standard deviation of F over the receiver, and standard error of F from few points and rays
     std::uint32_t rays = 0;
 };
 

@@ -11,8 +11,9 @@ namespace lueur {
 
 namespace {
 
-constexpr double settled_residual = 1e-4; // change of B in a sweep, of B
-constexpr double coarse_residual = 0.01;  // before the links are refined further
+constexpr double settled_share = 1e-3;   // of what the residual may still come to, 1 / (1 - rho) of it
+constexpr double least_residual = 1e-6;  // single precision has no more
+constexpr double coarse_residual = 0.02; // before the links are refined further
 constexpr std::uint32_t most_sweeps = 3000;
 constexpr std::uint32_t most_rounds = 20;
 constexpr std::uint32_t most_growing = 20; // sweeps in a row whose residual grows: the rows have too much energy
@@ -100,6 +101,10 @@ void Hierarchy::set_sources(HierarchySources sources) {
     if (phase_ == Phase::failed && tree_.root_count > 0 && rounds_ == 0) return; // refused
     points_.resize(tree_.nodes.size());
     resize_values();
+    extrapolation_.assign(static_cast<std::size_t>(channels_), 0);
+    change_before_.assign(static_cast<std::size_t>(channels_), 0);
+    ratio_before_ = change_before_;
+    sweeps_since_ = 0;
     emitted_flux_ = mean_rho_ = 0;
     double area = 0, white = 0;
     for (const float w : sources_.weight) white += double(w);
@@ -159,6 +164,8 @@ void Hierarchy::end_round() {
     sum_rows();
     sweeps_of_round_ = growing_ = 0;
     residual_ = last_residual_ = 1;
+    std::fill(extrapolation_.begin(), extrapolation_.end(), 0.0f);
+    sweeps_since_ = 0;
     phase_ = Phase::sweep;
 }
 
@@ -200,8 +207,10 @@ void Hierarchy::sweep() {
         phase_ = Phase::failed;
         return;
     }
+    const double settled_residual = std::max(least_residual, settled_share * (1 - mean_rho_));
     const bool last_round = limited_ || !is_next_tolerance_finer();
-    if (residual_ > (last_round ? settled_residual : coarse_residual)) return;
+    if (residual_ > (last_round ? settled_residual : std::max(coarse_residual * (1 - mean_rho_), settled_residual)))
+        return;
     measure_errors();
     if (limited_ || rounds_of_solve_ >= most_rounds) {
         phase_ = residual_ <= settled_residual ? Phase::settled : Phase::sweep;
@@ -238,9 +247,10 @@ void Hierarchy::push_and_pull(bool sources_only) {
         for (int c = 0; c < channels_; ++c) {
             const auto k = static_cast<std::size_t>(c);
             const float b = buried ? 0 : source_[n][c] + static_cast<float>(rho[k]) * total_[n][c] * scale_[n];
-            change[k] += double(node.live_area()) * double(b - b_[n][c]) * double(b - b_[n][c]);
+            const float step = b - b_[n][c];
+            change[k] += double(node.live_area()) * double(step) * double(step);
             norm[k] += double(node.live_area()) * double(b) * double(b);
-            b_[n][c] = b;
+            b_[n][c] = std::max(0.0f, b + extrapolation_[k] * step);
         }
         brightness_[n] = bright(b_[n]);
         light +=
@@ -249,8 +259,11 @@ void Hierarchy::push_and_pull(bool sources_only) {
     });
     mean_irradiance_ = area > 0 ? light / area : 0;
     residual_ = 0;
-    for (std::size_t c = 0; c < change.size(); ++c)
-        if (norm[c] > 0) residual_ = std::max(residual_, std::sqrt(change[c] / norm[c]));
+    for (std::size_t c = 0; c < change.size(); ++c) {
+        change[c] = norm[c] > 0 ? std::sqrt(change[c] / norm[c]) : 0;
+        residual_ = std::max(residual_, change[c]);
+    }
+    if (!sources_only) extrapolate(change);
     tree_.children_first([&](std::uint32_t n) {
         const ElementNode& node = tree_.nodes[n];
         if (node.is_leaf()) return;
@@ -272,6 +285,34 @@ void Hierarchy::push_and_pull(bool sources_only) {
         brightness_spread_[n] =
             static_cast<float>(std::sqrt(std::max(0.0, square - double(brightness_[n]) * brightness_[n])));
     });
+}
+
+// Sweeps by Jacobi approach the end along one direction, by the same ratio each; once the ratio stands, the rest of the
+// way is a geometric series (Lyusternik 1947), and the next sweep goes it at once. Without this a white room takes a
+// thousand.
+void Hierarchy::extrapolate(const std::vector<double>& change) {
+    constexpr std::uint32_t sweeps_between = 4;
+    const bool had = std::any_of(extrapolation_.begin(), extrapolation_.end(), [](float e) { return e > 0; });
+    ++sweeps_since_;
+    if (had) sweeps_since_ = 0;
+    for (std::size_t c = 0; c < change.size(); ++c) {
+        const double ratio = change_before_[c] > 0 ? change[c] / change_before_[c] : 0;
+        const bool stands = ratio > 0.3 && ratio < 1 - 1e-6 && std::abs(ratio - ratio_before_[c]) < 0.1 * (1 - ratio);
+        extrapolation_[c] = sweeps_since_ >= sweeps_between && stands ? static_cast<float>(ratio / (1 - ratio)) : 0.0f;
+        ratio_before_[c] = ratio;
+        change_before_[c] = change[c];
+    }
+}
+
+bool Hierarchy::absorbs_nothing() const {
+    for (std::uint32_t n = 0; n < tree_.nodes.size(); ++n) {
+        const ElementNode& node = tree_.nodes[n];
+        if (!node.is_leaf() || node.is_cluster() || points_[n].count == 0) continue;
+        if (!node.closed) return false;
+        for (const double rho : sources_.material_rho[sources_.surface_material[node.surface]])
+            if (rho < 1 - 1e-7) return false;
+    }
+    return emitted_flux_ > 0;
 }
 
 void Hierarchy::measure_errors() {

@@ -4,7 +4,7 @@
 
 namespace lueur {
 
-HierarchyView view_hierarchy(const Hierarchy& hierarchy) {
+HierarchyView view_hierarchy(const Hierarchy& hierarchy, std::span<const double> luminous) {
     HierarchyView view;
     view.tree = hierarchy.tree();
     view.links = hierarchy.links();
@@ -12,7 +12,11 @@ HierarchyView view_hierarchy(const Hierarchy& hierarchy) {
     view.first_link.assign(nodes + 1, 0);
     for (const Link& link : view.links) ++view.first_link[link.receiver + 1];
     for (std::size_t n = 0; n < nodes; ++n) view.first_link[n + 1] += view.first_link[n];
-    for (std::uint32_t n = 0; n < nodes; ++n) view.brightness.push_back(hierarchy.brightness(n));
+    for (std::uint32_t n = 0; n < nodes; ++n) {
+        double y = 0;
+        for (std::size_t c = 0; c < luminous.size(); ++c) y += luminous[c] * double(hierarchy.radiosity()[n][c]);
+        view.brightness.push_back(static_cast<float>(y));
+    }
     view.levels = hierarchy.level_count();
     return view;
 }

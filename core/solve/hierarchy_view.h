@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/solve/hierarchy.h"
@@ -12,11 +13,12 @@ struct HierarchyView {
     ElementTree tree;
     std::vector<Link> links;               // by receiver
     std::vector<std::uint32_t> first_link; // of each node, one more than nodes
-    std::vector<float> brightness;         // luminous exitance of each node, lm m^-2 where the weights are luminous
+    std::vector<float> brightness;         // luminous exitance of each node, lm m^-2
     std::uint32_t levels = 0;              // cuts of the most finely cut surface
 };
 
-HierarchyView view_hierarchy(const Hierarchy& hierarchy);
+// luminous: Y of one unit of each channel, lm/W.
+HierarchyView view_hierarchy(const Hierarchy& hierarchy, std::span<const double> luminous);
 
 // The element under a point of a coarse element of the mesh; no_index where there is none.
 std::uint32_t element_at(const HierarchyView& view, const Mesh& mesh, std::uint32_t coarse_element, glm::vec3 point);

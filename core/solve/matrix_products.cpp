@@ -1,6 +1,7 @@
 #include "core/solve/matrix_products.h"
 
 #include <cmath>
+#include <cstring>
 
 #include "core/solve/best_vectors.h"
 
@@ -8,8 +9,9 @@ namespace lueur {
 
 namespace {
 
-// Four channels as one register; written out, for the compiler would sum channel by channel in memory.
-using Lanes [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
+// Four channels as one register; written out, for the compiler would sum channel by channel in memory. Copied in and
+// out, for the numbers in memory are aligned as doubles only.
+using Lanes [[gnu::vector_size(32)]] = double;
 
 // out[k] += sum over [first, last) of F_(i+k)j x_j, eight channels from `channel`.
 template <int Rows>
@@ -22,8 +24,9 @@ template <int Rows>
     const std::size_t stride = static_cast<std::size_t>(x.stride);
     const double* values = x.values.data() + channel;
     for (std::uint32_t j = first; j < last; ++j) {
-        const auto* from = reinterpret_cast<const Lanes*>(values + j * stride);
-        const Lanes a = from[0], b = from[1];
+        Lanes a, b;
+        std::memcpy(&a, values + j * stride, sizeof a);
+        std::memcpy(&b, values + j * stride + 4, sizeof b);
         for (int k = 0; k < Rows; ++k) {
             const double factor = row[k][j];
             low[k] += factor * a;
@@ -31,9 +34,8 @@ template <int Rows>
         }
     }
     for (int k = 0; k < Rows; ++k) {
-        auto* to = reinterpret_cast<Lanes*>(out[k] + channel);
-        to[0] += low[k];
-        to[1] += high[k];
+        double* to = out[k] + channel;
+        for (int c = 0; c < 4; ++c) to[c] += low[k][c], to[c + 4] += high[k][c];
     }
 }
 
@@ -77,10 +79,11 @@ LUEUR_BEST_VECTORS double send_column(const FormFactorMatrix& f, std::uint32_t j
                                       const float* weight, const PatchField& rho, PatchField& h, PatchField& r,
                                       std::vector<double>& flux, double* l1_change, double* sent_on) {
     const int stride = rho.stride;
-    const float* column = f.values.data() + j;
+    const float* column = f.transposed ? f.row(j) : f.values.data() + j;
+    const std::size_t step = f.transposed ? 1 : f.n;
     double flux_change = 0;
     for (std::uint32_t i = 0; i < f.n; ++i) {
-        const double factor = column[std::size_t(i) * f.n];
+        const double factor = column[i * step];
         if (factor == 0) continue;
         const double area = f.area[i];
         const double* rho_i = rho[i];

@@ -86,9 +86,13 @@ void MatrixSystem::note_residual() {
 void MatrixSystem::find_flux() {
     flux_.resize(matrix_->n);
     unshot_ = 0;
+    signed_.assign(static_cast<std::size_t>(channels_), 0.0);
     for (std::uint32_t i = 0; i < matrix_->n; ++i) {
         double flux = 0;
-        for (int c = 0; c < channels_; ++c) flux += weight_[c] * std::abs(r_[i][c]);
+        for (int c = 0; c < channels_; ++c) {
+            flux += weight_[c] * std::abs(r_[i][c]);
+            signed_[c] += matrix_->area[i] * r_[i][c];
+        }
         flux_[i] = flux * matrix_->area[i];
         unshot_ += flux_[i];
     }
@@ -181,7 +185,12 @@ double MatrixSystem::send(std::uint32_t j, const double* amount, double* l1_chan
     }
     double change = flux - flux_[j];
     flux_[j] = flux;
-    change += send_column(*matrix_, j, amount, weight.data(), rho_, h_, r_, flux_, l1_change, sent_on);
+    std::array<double, max_channels + 8> sent{};
+    change += send_column(*matrix_, j, amount, weight.data(), rho_, h_, r_, flux_, l1_change, sent.data());
+    for (int c = 0; c < channels_; ++c) {
+        sent_on[c] += sent[c];
+        signed_[c] += (sent[c] - area) * amount[c];
+    }
     unshot_ += change;
     return change;
 }
@@ -198,11 +207,8 @@ bool MatrixSystem::shoot(bool over) {
     for (int c = 0; c < channels_; ++c) amount[c] = r_[j][c];
     bool more = false;
     if (over && !given_up_) {
-        std::array<double, max_channels> unshot{};
-        for (std::uint32_t i = 0; i < matrix_->n; ++i)
-            for (int c = 0; c < channels_; ++c) unshot[c] += matrix_->area[i] * r_[i][c];
         for (int c = 0; c < channels_; ++c) {
-            const double ambient = unshot[c] / area_ / (1 - std::min(mean_rho_[c], brightest_ambient));
+            const double ambient = signed_[c] / area_ / (1 - std::min(mean_rho_[c], brightest_ambient));
             const double ahead = rho_[j][c] * ambient;
             if (ahead * amount[c] > 0) extra[c] = ahead, more = true;
         }
@@ -229,12 +235,12 @@ bool MatrixSystem::shoot(bool over) {
     return true;
 }
 
-bool has_no_finite_solution(const FormFactorMatrix& matrix, const PatchField& rho, const PatchField& exitance,
-                            int channels) {
+bool has_no_finite_solution(const FormFactorMatrix& matrix, const RowSums& sums, const PatchField& rho,
+                            const PatchField& exitance, int channels) {
     constexpr double absorbs = 1e-7, leaks = 1e-5; // of float reflectances, and of rows that are sums of n floats
     const std::uint32_t n = matrix.n;
     std::vector<std::uint8_t> open(n); // light of these leaves the scene
-    for (std::uint32_t i = 0; i < n; ++i) open[i] = row_sum(matrix, i) < 1 - leaks;
+    for (std::uint32_t i = 0; i < n; ++i) open[i] = sums.sum[i] < 1 - leaks;
     for (int c = 0; c < channels; ++c) {
         std::vector<std::uint8_t> loses(n);
         std::vector<std::uint32_t> queue;
@@ -242,7 +248,7 @@ bool has_no_finite_solution(const FormFactorMatrix& matrix, const PatchField& rh
             if (open[i] || rho[i][c] < 1 - absorbs) loses[i] = 1, queue.push_back(i);
         for (std::size_t k = 0; k < queue.size() && queue.size() < n; ++k)
             for (std::uint32_t i = 0; i < n; ++i)
-                if (!loses[i] && matrix.row(i)[queue[k]] > 0) loses[i] = 1, queue.push_back(i);
+                if (!loses[i] && matrix.at(i, queue[k]) > 0) loses[i] = 1, queue.push_back(i);
         for (std::uint32_t i = 0; i < n; ++i)
             if (!loses[i] && exitance[i][c] > 0) return true;
     }

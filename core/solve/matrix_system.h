@@ -75,7 +75,8 @@ private:
 
     std::uint32_t last_shooter_ = no_index;
     std::uint64_t overshots_ = 0;
-    std::vector<double> flux_; // weighted unshot flux of each patch, without sign; its sum is unshot_
+    std::vector<double> signed_; // sum_i A_i r_i of each channel: what ambient light there is
+    std::vector<double> flux_;   // weighted unshot flux of each patch, without sign; its sum is unshot_
     bool flux_known_ = false, given_up_ = false;
     double halved_from_ = 0; // unshot flux when it last had halved
     std::uint64_t shots_since_halved_ = 0;
@@ -83,7 +84,7 @@ private:
 
 // In a part of the scene that keeps all its light the radiosity grows without end. True when some patch that emits,
 // in some channel, can reach only patches with rho = 1 and row sums of 1.
-bool has_no_finite_solution(const FormFactorMatrix& matrix, const PatchField& rho, const PatchField& exitance,
-                            int channels);
+bool has_no_finite_solution(const FormFactorMatrix& matrix, const RowSums& sums, const PatchField& rho,
+                            const PatchField& exitance, int channels);
 
 } // namespace lueur

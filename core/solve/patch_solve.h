@@ -19,6 +19,7 @@ struct PatchSolve {
     bool of_elements = true;               // patches are the coarse elements; false: the mesh's patches
     std::vector<std::uint32_t> of_element; // patch of each coarse element
     PatchScene scene;
+    bool announced = false;  // its memory has been stated
     FormFactorMatrix matrix; // n = 0: none yet
     std::uint32_t cursor = 0;
     bool complete = false;

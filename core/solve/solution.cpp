@@ -56,6 +56,7 @@ void step_solve(State& s, const std::atomic<bool>& cancel, bool one_shot) {
 } // namespace
 
 void start_solver(State& s, bool same_sources) {
+    if (s.solver() != SolverKind::hierarchical) s.status.links = 0;
     if (s.solver() != SolverKind::gathering) s.indirect_deviation.clear(); // it was another solver's
     switch (s.solver()) {
     case SolverKind::automatic:
@@ -96,7 +97,7 @@ Solution::Solution(std::shared_ptr<const Scene> scene)
     : state_(std::make_unique<State>()) {
     state_->scene = std::move(scene);
     state_->chosen = chosen_solver(*state_->scene);
-    make_channels(*state_);
+    plan_channels(*state_);
 }
 Solution::~Solution() = default;
 Solution::Solution(Solution&&) noexcept = default;
@@ -119,7 +120,12 @@ void Solution::update(std::shared_ptr<const Scene> scene, SolveFrom stale) {
         fresh->scene = s.scene;
         fresh->chosen = s.chosen;
         state_ = std::move(fresh);
-        make_channels(*state_);
+        plan_channels(*state_);
+        return;
+    }
+    if (s.phase == SolvePhase::mesh) {
+        if (s.choosing.valid()) s.choice = s.choosing.get();
+        plan_channels(s);
         return;
     }
     const SameChannels same = take_channels(s);
@@ -156,6 +162,7 @@ bool Solution::step(const std::atomic<bool>& cancel, bool one_shot) {
     switch (s.phase) {
     case SolvePhase::mesh:
         step_mesh(s);
+        make_channels(s);
         break;
     case SolvePhase::sketch:
         step_sketch(s, cancel);
@@ -207,6 +214,9 @@ std::shared_ptr<const Mesh> Solution::mesh() const {
 }
 std::shared_ptr<const World> Solution::world() const {
     return state_->world;
+}
+std::shared_ptr<const HierarchyView> Solution::hierarchy() const {
+    return state_->solver() == SolverKind::hierarchical ? state_->hierarchy_view : nullptr;
 }
 std::shared_ptr<const Field> Solution::field() const {
     if (state_->stock) return state_->stock;

@@ -15,6 +15,8 @@
 
 namespace lueur {
 
+struct HierarchyView; // hierarchy_view.h
+
 // What an edit left valid; all stages after it are redone.
 enum class SolveFrom { mesh, transport, sources, reflectance, black, nothing };
 
@@ -39,9 +41,10 @@ public:
 
     const SolveStatus& status() const;
     const std::shared_ptr<const Scene>& scene() const;
-    std::shared_ptr<const Mesh> mesh() const;   // null before it is made
-    std::shared_ptr<const World> world() const; // null before it is made
-    std::shared_ptr<const Field> field() const; // as of now; null before there is a mesh
+    std::shared_ptr<const Mesh> mesh() const;               // null before it is made
+    std::shared_ptr<const World> world() const;             // null before it is made
+    std::shared_ptr<const HierarchyView> hierarchy() const; // hierarchical: of the last round; else null
+    std::shared_ptr<const Field> field() const;             // as of now; null before there is a mesh
 
     struct State; // solution_state.h, for the rest of core/solve and core/view
     const State& state() const { return *state_; }

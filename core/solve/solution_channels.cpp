@@ -1,49 +1,19 @@
 // Sources and paints of a solution in channels: which wavelengths the scene needs, and what everything is in them.
 #include <algorithm>
 #include <cmath>
+#include <future>
 
 #include <fmt/format.h>
 
 #include "core/scene/luminaire.h"
 #include "core/scene/spectral_content.h"
 #include "core/solve/solution_steps.h"
-#include "core/spectrum/wavelengths_plan.h"
 
 namespace lueur {
 
 using State = Solution::State;
 
 namespace {
-
-// The wavelengths that the scene's lights and paints need; the same as before where those have not changed.
-void choose_wavelengths(State& s) {
-    const SolveSettings& solve = s.scene->solve;
-    SpectralContent content = spectral_content(*s.scene);
-    const bool same_rule = s.wavelengths && s.wavelengths->asked == solve.wavelengths;
-    if (same_rule && s.content == content && s.planned_error == solve.colour_error) return;
-    switch (solve.wavelengths.rule) {
-    case WavelengthRule::automatic:
-    case WavelengthRule::folded: {
-        WavelengthsPlan plan =
-            plan_wavelengths(solve.wavelengths, content, solve.colour_error, same_rule ? s.wavelengths.get() : nullptr);
-        s.wavelengths = std::make_shared<const Wavelengths>(std::move(plan.wavelengths));
-        s.status.predicted_colour_error = plan.prediction.worst;
-        s.status.wavelengths = std::move(plan.reason);
-        break;
-    }
-    case WavelengthRule::uniform:
-    case WavelengthRule::meyer:
-    case WavelengthRule::gauss:
-    case WavelengthRule::rgb:
-        s.wavelengths = std::make_shared<const Wavelengths>(make_wavelengths(solve.wavelengths, content));
-        s.status.predicted_colour_error = -1;
-        s.status.wavelengths = fmt::format("{} channels", s.wavelengths->size());
-        break;
-    }
-    s.wavelength_error = wavelength_error(*s.wavelengths, content);
-    s.content = std::move(content);
-    s.planned_error = solve.colour_error;
-}
 
 // But for rounding: a lamp of the same flux in its own channels may differ in its last digit.
 bool nearly_equal(const std::vector<std::vector<double>>& a, const std::vector<std::vector<double>>& b) {
@@ -55,11 +25,22 @@ bool nearly_equal(const std::vector<std::vector<double>>& a, const std::vector<s
 
 } // namespace
 
+void plan_channels(State& s) {
+    s.choosing = std::async(std::launch::async,
+                            [scene = s.scene, before = s.choice] { return choose_wavelengths(scene, before); });
+}
+
 void make_channels(State& s) {
     const Scene& scene = *s.scene;
-    choose_wavelengths(s);
+    const auto scene_before = s.choice.scene;
+    const auto wavelengths_before = s.wavelengths;
+    s.choice = s.choosing.valid() ? s.choosing.get() : choose_wavelengths(s.scene, s.choice);
+    s.wavelengths = s.choice.wavelengths;
+    s.status.predicted_colour_error = s.choice.predicted_error;
+    s.status.wavelengths = s.choice.words;
     const bool compare = scene.solve.compare_trichromatic && scene.solve.wavelengths.rule != WavelengthRule::rgb &&
                          s.wavelengths->size() + 3 <= max_channels;
+    const bool compared_before = s.trichromatic.has_value();
     s.trichromatic = compare ? std::optional(make_wavelengths(WavelengthsSpec{WavelengthRule::rgb, 3})) : std::nullopt;
     const auto with_trichromatic = [&](const auto& channels_in) {
         std::vector<double> channels = channels_in(*s.wavelengths);
@@ -69,10 +50,14 @@ void make_channels(State& s) {
         }
         return channels;
     };
-    s.material_rho.clear();
-    for (const Material& material : scene.materials)
-        s.material_rho.push_back(
-            with_trichromatic([&](const Wavelengths& w) { return reflectance_channels(material, w); }));
+    const bool same_paints = scene_before && scene_before->materials == scene.materials &&
+                             wavelengths_before == s.wavelengths && compared_before == compare;
+    if (!same_paints) {
+        s.material_rho.clear();
+        for (const Material& material : scene.materials)
+            s.material_rho.push_back(
+                with_trichromatic([&](const Wavelengths& w) { return reflectance_channels(material, w); }));
+    }
     s.luminaire_exitance.clear();
     s.status.emitted_lumens = 0;
     std::string dark;

@@ -51,23 +51,68 @@ void direct_at(const State& s, glm::vec3 position, glm::vec3 normal, float* fact
         factors[l] = direct_form_factor(*s.world, s.direct->emitters()[l], position, normal, rays);
 }
 
-void show_leaves(State& s, bool new_leaves) {
-    const ElementTree& tree = s.hierarchy->tree();
-    if (new_leaves) {
-        const auto most = static_cast<std::uint32_t>(
-            std::max<std::size_t>(s.mesh.vertices.size(), s.mesh.coarse_vertex_count + vertices_for_leaves));
-        if (cut_mesh_to_leaves(tree, s.mesh, most)) {
-            s.direct->follow_mesh(s.direct_light_apart());
-            s.passes.clear(); // their rays end at vertices of the mesh before
-            s.pass_open = false;
-            publish_mesh(s);
-        }
-        s.leaf_readings = read_leaves(tree, s.mesh);
-        s.hierarchy_view = std::make_shared<const HierarchyView>(view_hierarchy(*s.hierarchy));
-    }
+void show_links(State& s) {
+    std::vector<double> luminous;
+    for (const Xyz& w : s.wavelengths->xyz_weight) luminous.push_back(w.y);
+    s.hierarchy_view = std::make_shared<const HierarchyView>(view_hierarchy(*s.hierarchy, luminous));
+}
+
+void refresh_values(State& s) {
     std::vector<std::uint8_t> inside;
-    s.indirect_irradiance = irradiance_at_vertices(*s.hierarchy, s.leaf_readings, s.channels(), inside);
+    s.indirect_irradiance = irradiance_at_vertices(*s.hierarchy, s.leaf_mesh->readings(), s.channels(), inside);
     fill_buried(s.mesh.elements, std::move(inside), s.indirect_irradiance);
+}
+
+// New vertices show what their parents do until they have their own.
+void take_mesh(State& s) {
+    s.mesh = s.leaf_mesh->mesh();
+    s.direct->follow_mesh();
+    const std::uint32_t before = s.indirect_irradiance.count;
+    if (before > s.mesh.coarse_vertex_count) {
+        ChannelField& h = s.indirect_irradiance;
+        h.count = static_cast<std::uint32_t>(s.mesh.vertices.size());
+        h.values.resize(std::size_t(h.count) * static_cast<std::size_t>(h.stride), 0.0f);
+        for (std::uint32_t v = before; v < h.count; ++v) {
+            const auto& p = s.mesh.vertices[v].parents;
+            for (int c = 0; c < h.stride; ++c) h[v][c] = 0.5f * (h[p[0]][c] + h[p[1]][c]);
+        }
+    }
+    s.passes.clear(); // their rays end at vertices of the mesh before
+    s.pass_open = false;
+    publish_mesh(s);
+}
+
+// New leaves: the mesh is cut as finely, its vertices get their direct light, and read the leaves. One part a step.
+void step_show_leaves(State& s, const std::atomic<bool>& cancel) {
+    using Part = State::ShowLeaves;
+    const ElementTree& tree = s.hierarchy->tree();
+    switch (s.show_leaves) {
+    case Part::no:
+        return;
+    case Part::cut: {
+        const auto most = static_cast<std::uint32_t>(std::max<std::size_t>(
+            s.direct->lit_vertices(), s.mesh.coarse_vertex_count + std::size_t(vertices_for_leaves)));
+        if (!s.leaf_mesh->cut(tree, most, cancel)) return;
+        s.show_leaves = Part::light;
+        if (s.leaf_mesh->mesh().vertices.size() == s.mesh.vertices.size()) return;
+        take_mesh(s);
+        return;
+    }
+    case Part::light:
+        if (s.direct_light_apart() && !s.direct->light_vertices(cancel)) return;
+        s.show_leaves = Part::read;
+        return;
+    case Part::read:
+        if (!s.leaf_mesh->read(tree, cancel)) return;
+        s.show_leaves = Part::values;
+        return;
+    case Part::values:
+        show_links(s);
+        refresh_values(s);
+        s.shown_round = s.hierarchy->rounds();
+        s.show_leaves = Part::no;
+        return;
+    }
 }
 
 void report(State& s) {
@@ -84,6 +129,32 @@ void report(State& s) {
     const double direct = s.direct_light_apart() ? s.direct->misfit() : 0;
     s.status.estimated_error = std::min(1.0, std::hypot(h.estimated_error(), direct));
     s.status.progress = h.progress();
+}
+
+// The links are made and solved over. What remains is what the vertices get of them themselves.
+void step_final_gather(State& s, const std::atomic<bool>& cancel) {
+    constexpr std::size_t most_factors = 40'000'000; // 320 MB
+    if (!s.direct_light_apart()) return settle(s);
+    if (!s.final_gather || s.final_round != s.hierarchy->rounds()) {
+        s.vertex_origins = ray_origins(s.mesh, s.world->epsilon());
+        s.final_gather = std::make_unique<FinalGather>(*s.hierarchy, s.mesh, s.vertex_origins, s.leaf_mesh->readings(),
+                                                       s.all_buried());
+        s.final_round = s.hierarchy->rounds();
+        s.final_done = s.final_gather->factors() > most_factors;
+        if (s.final_done) s.final_gather.reset();
+    }
+    if (!s.final_done) {
+        const std::uint64_t rays = s.final_gather->rays();
+        s.final_done = s.final_gather->trace(*s.world, *s.hierarchy, cancel);
+        s.status.rays += s.final_gather->rays() - rays;
+        s.status.progress = s.final_gather->progress();
+        if (!s.final_done) return;
+    }
+    if (s.final_gather) {
+        s.indirect_irradiance = s.final_gather->irradiance(*s.hierarchy, s.channels());
+        fill_buried(s.mesh.elements, s.all_buried(), s.indirect_irradiance);
+    }
+    settle(s);
 }
 
 } // namespace
@@ -105,11 +176,14 @@ void start_hierarchical(State& s, bool same_sources) {
             direct = [&s](glm::vec3 p, glm::vec3 n, float* factors) { direct_at(s, p, n, factors); };
         s.hierarchy = std::make_unique<Hierarchy>(*s.scene, *s.world, settings, std::move(direct));
         if (!s.hierarchy->failure().empty()) return fail(s, s.hierarchy->failure());
-        s.leaf_readings.clear();
+        s.final_gather.reset();
+        s.leaf_mesh.reset();
+        s.shown_round = 0;
+        s.show_leaves = State::ShowLeaves::no;
+        s.indirect_irradiance = ChannelField(s.mesh.coarse_vertex_count, s.channels());
         same_sources = false;
     }
     if (!same_sources) s.hierarchy->set_sources(sources_of(s));
-    if (s.leaf_readings.empty()) s.indirect_irradiance = ChannelField(s.mesh.coarse_vertex_count, s.channels());
     s.solving = true;
     s.status.sweeps = 0;
     s.phase = SolvePhase::solve;
@@ -121,18 +195,25 @@ void make_links(State& s, const std::atomic<bool>&) {
 
 void step_hierarchical(State& s, const std::atomic<bool>& cancel) {
     s.status.stage = SolveStage::solving;
-    const std::uint64_t rays = s.hierarchy->rays();
-    const std::uint32_t sweeps = s.hierarchy->sweeps();
-    const std::uint32_t shown = s.status.link_rounds;
-    const bool more = s.hierarchy->step(cancel);
-    s.status.rays += s.hierarchy->rays() - rays;
-    if (!s.hierarchy->failure().empty()) return fail(s, s.hierarchy->failure());
-    if (s.hierarchy->sweeps() != sweeps || !more) {
-        show_leaves(s, s.hierarchy->rounds() != shown || s.leaf_readings.empty() || !more);
-        report(s);
+    Hierarchy& h = *s.hierarchy;
+    if (s.show_leaves != State::ShowLeaves::no) return step_show_leaves(s, cancel);
+    if (h.settled()) return step_final_gather(s, cancel);
+    const std::uint64_t rays = h.rays();
+    const std::uint32_t sweeps = h.sweeps();
+    h.step(cancel);
+    if (h.sweeps() > 0 && sweeps == 0 && h.absorbs_nothing()) return fail(s, no_finite_solution);
+    s.status.rays += h.rays() - rays;
+    if (!h.failure().empty()) return fail(s, h.failure());
+    report(s);
+    if (h.sweeps() == sweeps) return;
+    if (!h.refining() && h.rounds() != s.shown_round) {
+        if (!s.leaf_mesh) s.leaf_mesh = std::make_unique<LeafMesh>(s.mesh);
+        s.leaf_mesh->begin();
+        s.show_leaves = State::ShowLeaves::cut;
+    } else if (h.settled()) {
+        show_links(s); // other light on the same links
+        refresh_values(s);
     }
-    s.status.progress = s.hierarchy->progress();
-    if (!more) settle(s);
 }
 
 } // namespace lueur

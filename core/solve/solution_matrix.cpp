@@ -39,7 +39,7 @@ void give_sources(State& s) {
             exitance[patch][c] = luminaire ? s.luminaire_exitance[*luminaire][c] : 0;
         }
     }
-    if (has_no_finite_solution(p.matrix, rho, exitance, s.channels())) return fail(s, no_finite_solution);
+    if (has_no_finite_solution(p.matrix, p.sums, rho, exitance, s.channels())) return fail(s, no_finite_solution);
     p.system.set_sources(std::move(rho), std::move(exitance));
 }
 
@@ -121,11 +121,14 @@ MatrixSize matrix_size(const Mesh& mesh, int memory_mib) {
 void start_matrix(State& s, bool same_sources) {
     PatchSolve& p = s.patch_solve;
     if (!made_with(p, s.scene->solve)) p = PatchSolve{};
+    s.status.matrix_patches = matrix_size(s.mesh, s.scene->solve.matrix_memory).patches;
+    s.status.matrix_bytes = matrix_bytes(s.status.matrix_patches);
     if (!p.complete) {
         s.phase = SolvePhase::transport;
         return;
     }
     s.phase = SolvePhase::solve;
+    if (p.matrix.transposed != (s.solver() == SolverKind::overshooting)) transpose(p.matrix);
     if (s.solving && same_sources) return;
     if (!s.solving) p.system = MatrixSystem(p.matrix, s.channels(), flux_weights(s));
     s.status.sweeps = s.status.shots = 0;
@@ -141,6 +144,7 @@ void build_matrix(State& s, const std::atomic<bool>& cancel) {
     PatchSolve& p = s.patch_solve;
     const SolveSettings& solve = s.scene->solve;
     s.status.stage = SolveStage::form_factors;
+    if (!std::exchange(p.announced, true)) return; // the status says what it will take before it is taken
     if (p.matrix.n == 0) {
         const MatrixSize size = matrix_size(s.mesh, solve.matrix_memory);
         p.of_elements = size.of_elements;
@@ -161,7 +165,7 @@ void build_matrix(State& s, const std::atomic<bool>& cancel) {
     const std::uint64_t cost_before = p.cost.cost;
     const bool done =
         fill_rows(p.matrix, p.scene, p.method, row_settings(p.method, p.samples, p.seed), p.cursor, p.cost, cancel);
-    s.status.rays += p.cost.cost - cost_before;
+    s.status.form_factor_cost += p.cost.cost - cost_before;
     s.status.progress = p.matrix.n > 0 ? double(p.cursor) / p.matrix.n : 1;
     if (!done) return;
     p.sums = limit_row_sums(p.matrix);

@@ -1,6 +1,7 @@
 // The inside of a Solution, for core/solve and core/view only.
 #pragma once
 
+#include <future>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -9,11 +10,12 @@
 #include "core/solve/gather_system.h"
 #include "core/solve/hierarchy.h"
 #include "core/solve/hierarchy_field.h"
+#include "core/solve/hierarchy_final.h"
 #include "core/solve/hierarchy_view.h"
 #include "core/solve/patch_solve.h"
 #include "core/solve/shooting.h"
 #include "core/solve/solution.h"
-#include "core/solve/wavelength_error.h"
+#include "core/solve/wavelengths_choice.h"
 #include "core/transport/direct_transport.h"
 #include "core/transport/gather_rows.h"
 
@@ -54,11 +56,10 @@ struct Solution::State {
     std::vector<float> indirect_deviation;
 
     // Sources and paints, in channels: those of `wavelengths`, then those of `trichromatic`.
-    std::shared_ptr<const Wavelengths> wavelengths;
-    std::optional<Wavelengths> trichromatic;             // when the two are compared
-    SpectralContent content;                             // that the wavelengths were chosen for
-    double planned_error = 0;                            // and the colour_error
-    WavelengthError wavelength_error;                    // what they make of illuminance
+    std::shared_ptr<const Wavelengths> wavelengths; // of `choice`; null until the mesh is there
+    std::optional<Wavelengths> trichromatic;        // when the two are compared
+    WavelengthsChoice choice;
+    std::future<WavelengthsChoice> choosing;             // valid: on its way, on a thread of its own
     std::vector<std::vector<double>> material_rho;       // per material
     std::vector<std::vector<double>> luminaire_exitance; // per luminaire, W m^-2 nm^-1
     std::vector<std::optional<LuminaireIndex>> object_luminaire;
@@ -69,7 +70,14 @@ struct Solution::State {
     Shooting shooting;
     PatchSolve patch_solve; // Jacobi, Gauss-Seidel, overshooting
     std::unique_ptr<Hierarchy> hierarchy;
-    std::vector<LeafReading> leaf_readings;              // of the mesh's vertices
+    enum class ShowLeaves { no, cut, light, read, values };
+    ShowLeaves show_leaves = ShowLeaves::no; // which part of it is going on
+    std::unique_ptr<LeafMesh> leaf_mesh;     // cuts `mesh`, from the first round on
+    std::uint32_t shown_round = 0;
+    std::unique_ptr<FinalGather> final_gather;           // at the mesh's vertices, of the links of this round:
+    std::uint32_t final_round = 0;                       //
+    bool final_done = false;                             // all its rays are traced
+    std::vector<glm::vec3> vertex_origins;               // of all vertices of the mesh
     std::shared_ptr<const HierarchyView> hierarchy_view; // as of the last round of refinement
     std::unique_ptr<TracedField> traced;                 // of the reference solver
     bool solving = false;                                // system or shooting hold this scene's sources

@@ -28,6 +28,7 @@ void start_solver(Solution::State& s, bool same_sources = false);
 struct SameChannels {
     bool channels, sources;
 };
+void plan_channels(Solution::State& s); // begins to, while the mesh is made
 void make_channels(Solution::State& s);
 SameChannels take_channels(Solution::State& s);                   // anew; what stayed the same
 double luminous(const Solution::State& s, const float* channels); // Y of channels

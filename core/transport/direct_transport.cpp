@@ -62,6 +62,7 @@ bool DirectTransport::light_vertices(const std::atomic<bool>& cancel) {
             const std::size_t row = std::size_t(v) * emitters_.size();
             float* factors = factors_.data() + row;
             light(origins_[v], mesh_.vertices[v].normal, factors, deviations_.data() + row);
+            buried_[v] = 0;
             if (equal_flux_light(factors) == 0) find_buried(world_, mesh_, origins_, v, v + 1, buried_);
         }
     });
@@ -194,27 +195,25 @@ void DirectTransport::spread_deviations() {
     for (std::size_t i = 0; i < beside.size(); ++i) deviations_[i] = std::max(deviations_[i], beside[i]);
 }
 
-void DirectTransport::follow_mesh(bool lit) {
+void DirectTransport::follow_mesh() {
     const std::uint32_t before = static_cast<std::uint32_t>(buried_.size());
-    const std::uint32_t after = static_cast<std::uint32_t>(mesh_.vertices.size());
-    factors_.resize(std::size_t(after) * emitters_.size(), 0);
+    const std::uint32_t count = static_cast<std::uint32_t>(mesh_.vertices.size());
+    factors_.resize(std::size_t(count) * emitters_.size(), 0);
     deviations_.resize(factors_.size(), 0);
-    buried_.resize(after, 0);
+    buried_.resize(count, 0);
+    for (std::uint32_t v = before; v < count; ++v) {
+        const auto& p = mesh_.vertices[v].parents;
+        buried_[v] = buried_[p[0]] && buried_[p[1]];
+        for (std::size_t l = 0; l < emitters_.size(); ++l) {
+            const std::size_t at = v * emitters_.size() + l, a = p[0] * emitters_.size() + l,
+                              b = p[1] * emitters_.size() + l;
+            factors_[at] = 0.5f * (factors_[a] + factors_[b]);
+            deviations_[at] = std::max(deviations_[a], deviations_[b]);
+        }
+    }
     origins_ = ray_origins(mesh_, world_.epsilon());
-    bisection_.emplace(mesh_);
+    if (!refined_) bisection_.emplace(mesh_); // refine() goes on from here
     level_begun_ = false;
-    if (vertex_cursor_ == before) vertex_cursor_ = after;
-    if (!lit) return;
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(before, after, 16),
-                      [&](const tbb::blocked_range<std::uint32_t>& range) {
-                          for (std::uint32_t v = range.begin(); v < range.end(); ++v) {
-                              const std::size_t row = std::size_t(v) * emitters_.size();
-                              float* factors = factors_.data() + row;
-                              light(origins_[v], mesh_.vertices[v].normal, factors, deviations_.data() + row);
-                              if (equal_flux_light(factors) == 0)
-                                  find_buried(world_, mesh_, origins_, v, v + 1, buried_);
-                          }
-                      });
 }
 
 bool DirectTransport::refine(const std::atomic<bool>& cancel) {

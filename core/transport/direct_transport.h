@@ -34,10 +34,11 @@ public:
     bool light_vertices(const std::atomic<bool>& cancel); // D at the vertices there are
     bool refine(const std::atomic<bool>& cancel);         // then split, level by level, and light the new ones
 
-    // The mesh was cut by someone else: lights its new vertices (or leaves them dark, for one who needs no direct
-    // light).
-    void follow_mesh(bool lit);
+    // The mesh was cut by someone else: its new vertices have what their parents
+    // have, until light_vertices has been called to its end.
+    void follow_mesh();
 
+    std::size_t lit_vertices() const { return buried_.size(); } // that it knows of
     std::size_t emitter_count() const { return emitters_.size(); }
     const std::vector<Emitter>& emitters() const { return emitters_; }
     // D of each emitter at a vertex: irradiance for unit exitance.

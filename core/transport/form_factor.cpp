@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
+
 #include "core/transport/form_factor_exact.h"
 #include "core/transport/form_factor_methods.h"
 
@@ -139,6 +141,12 @@ FormFactorEstimate form_factor(const PlanarPolygon& from, const PlanarPolygon& t
         if (result.warning.empty() && result.method == FormFactorMethod::analytic && !pair.may_be_occluded() &&
             result.standard_error > 1e-6 * result.value)
             result.warning = "so flat or so far apart that rounding leaves less than six digits";
+        if (result.warning.empty() && result.value <= 0 && result.standard_error > 0)
+            result.warning = fmt::format("nothing was seen of the patch: up to {:.1g} is possible", result.standard_error);
+        else if (result.warning.empty() && result.standard_error > 0.2 * result.value)
+            result.warning =
+                fmt::format("its own error estimate is {:.0f} % of the value: more samples or analytic are needed",
+                            100 * result.standard_error / result.value);
     } else {
         result.standard_error = 0; // exactly 0: one is behind the other, or both lie in one plane
     }

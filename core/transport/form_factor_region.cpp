@@ -82,7 +82,7 @@ std::string region_warning(const PolygonPair& pair, FormFactorMethod method, con
     case FormFactorMethod::monte_carlo: {
         // The largest that one pair of points can add to the sum.
         const double share = pair.to.area / (std::numbers::pi * settings.samples);
-        if (apart * apart * 0.1 < share)
+        if (apart * apart * 0.1 * std::min(1.0, pair.to.area / pair.from.area) < share)
             return apart <= 1e-9 * size
                        ? "the patches touch: the variance is infinite; analytic is needed"
                        : "the patches are so near that one pair of points may outweigh all others: analytic is needed";

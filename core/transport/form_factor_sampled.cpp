@@ -37,49 +37,65 @@ struct ElementSum {
 };
 
 // A shadow's edge goes through sub-elements of j (its share is a sample) and lies between those of i (the shares are).
-double shadow_variance(const ElementSum& sum) {
-    double whole = 0, seen = 0, variance = 0;
+// The rays of a regular grid meet an occluder together or not at all: the former do not average out over i.
+double shadow_error(const ElementSum& sum) {
+    double whole = 0, seen = 0, along = 0, between = 0;
     for (const auto& part : sum.parts) {
         whole += part.whole;
         seen += part.whole * part.share;
     }
     if (!(whole > 0)) return 0;
     for (const auto& part : sum.parts) {
-        const double deviation = part.share - seen / whole;
-        variance += part.whole * part.whole * (share_variance(part.share, part.targets) + deviation * deviation);
+        const double deviation = part.whole * (part.share - seen / whole);
+        along += part.whole * std::sqrt(share_variance(part.share, part.targets));
+        between += deviation * deviation;
     }
-    return variance;
+    return std::sqrt(along * along + between);
 }
 
 MethodEstimate estimate_of(const PolygonPair& pair, const ElementSum& sum) {
-    const double shadows = pair.may_be_occluded() ? std::sqrt(shadow_variance(sum)) : 0;
+    const double shadows = pair.may_be_occluded() ? shadow_error(sum) : 0;
     return {sum.value, sum.error + shadows + 1e-15, sum.cost};
+}
+
+// Where elements of i are larger than the patches are apart, one of them more or less beside j is a step of all that it
+// can see of j; i as a whole sees no more than all that j sees.
+double element_step(const PolygonPair& pair, const std::vector<SubElement>& elements) {
+    double size = 0;
+    for (const SubElement& element : elements) size = std::max(size, element.size);
+    const double apart = distance(pair.from, pair.to);
+    if (!(apart < size)) return 0;
+    const double most = std::min(1.0, pair.to.area / (pi * std::max(apart * apart, 1e-300)));
+    return (1 - apart / size) * std::min(most / static_cast<double>(elements.size()), pair.to.area / pair.from.area);
 }
 
 } // namespace
 
 // F = 1/A_i sum_q dA_i^q sum_p dA_j^p cos cos / (pi r^2 + dA_j^p) h: Wallace, Elmquist & Haines 1989, eq. 5, averaged
-// over sub-elements of i. Exact for a disk on the axis. What the shape of elements changes is of the order of their
-// size^2 / r^2, and anything where they are larger than they are apart.
+// over sub-elements of i. Exact for a disk on the axis. Its error is told by Lambert's formula at the same points, and
+// between them by the size of the elements.
 MethodEstimate point_to_disk(const PolygonPair& pair, const FormFactorSettings& settings) {
     ElementSum sum;
-    const auto shooters = sub_elements(pair.to, settings.samples);
-    for (const SubElement& i : sub_elements(pair.from, settings.samples)) {
+    const auto receivers = sub_elements(pair.from, settings.samples),
+               shooters = sub_elements(pair.to, settings.samples);
+    for (const SubElement& i : receivers) {
         if (settings.is_cancelled()) break;
-        double all = 0, seen = 0, error = 0;
+        double all = 0, seen = 0, between = 0;
         for (const SubElement& j : shooters) {
             ++sum.cost;
             const double disk = j.area * disk_kernel(pair, i.centre, j.centre, j.area);
             const glm::dvec3 d = j.centre - i.centre;
             all += disk;
-            error += disk * std::min(1.0, (i.size * i.size + j.size * j.size) / (2 * pi * glm::dot(d, d)));
+            between += disk * std::min(1.0, i.size * i.size / (2 * pi * glm::dot(d, d)));
             if (disk > 0 && is_visible(pair, i.centre, j.centre)) seen += disk;
         }
         const double weight = i.area / pair.from.area;
+        const double exact = std::max(0.0, lambert_sum(i.centre, pair.from.normal, pair.to.corners).value);
         sum.value += weight * seen;
-        sum.error += weight * error;
+        sum.error += weight * (between + std::abs(all - exact));
         sum.parts.push_back({weight * all, all > 0 ? seen / all : 1, static_cast<double>(shooters.size())});
     }
+    sum.error = std::max(sum.error, element_step(pair, receivers));
     return estimate_of(pair, sum);
 }
 
@@ -87,12 +103,12 @@ MethodEstimate point_to_disk(const PolygonPair& pair, const FormFactorSettings& 
 // sub-element: the rule of the middle and that of the corners err to opposite sides.
 MethodEstimate area_sampled(const PolygonPair& pair, const FormFactorSettings& settings) {
     ElementSum sum;
-    const auto targets = sub_elements(pair.to, settings.samples);
+    const auto receivers = sub_elements(pair.from, settings.samples), targets = sub_elements(pair.to, settings.samples);
     const auto lambert = [&](glm::dvec3 point) {
         ++sum.cost;
         return std::clamp(lambert_sum(point, pair.from.normal, pair.to.corners).value, 0.0, 1.0);
     };
-    for (const SubElement& i : sub_elements(pair.from, settings.samples)) {
+    for (const SubElement& i : receivers) {
         if (settings.is_cancelled()) break;
         const double middle = lambert(i.centre), weight = i.area / pair.from.area;
         double corners = 0;
@@ -112,6 +128,7 @@ MethodEstimate area_sampled(const PolygonPair& pair, const FormFactorSettings& s
         sum.value += weight * middle * share;
         sum.parts.push_back({weight * middle, share, static_cast<double>(targets.size())});
     }
+    sum.error = std::max(sum.error, element_step(pair, receivers));
     return estimate_of(pair, sum);
 }
 
@@ -134,7 +151,11 @@ MethodEstimate monte_carlo(const PolygonPair& pair, const FormFactorSettings& se
     if (n < 2) return {mean, -1, 1};
     // Near a common edge f exceeds K with a probability as K^(-3/2): what lies beyond the largest of n is twice that
     // one's share, and no variance of the sample knows of it. Where f is bounded it is small.
-    return {mean, std::sqrt(variance / n) + 2 * most / n, static_cast<std::uint64_t>(settings.samples)};
+    double beyond = 2 * most / n;
+    // And what no pair has found yet: the most that one can add, of all that j can send to i.
+    if (const double apart = distance(pair.from, pair.to); apart > 0)
+        beyond = std::max(beyond, std::min(pair.to.area / (pi * apart * apart * n), pair.to.area / pair.from.area));
+    return {mean, std::sqrt(variance / n) + beyond, static_cast<std::uint64_t>(settings.samples)};
 }
 
 MethodEstimate analytic(const PolygonPair& pair, const FormFactorSettings& settings) {

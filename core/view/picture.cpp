@@ -4,8 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include "core/view/pixel_loop.h"
 
 namespace lueur {
 
@@ -76,8 +75,10 @@ std::optional<FieldPoint> field_along_ray(const FieldView& view, const Ray& ray)
         emitted += double(w) * glm::dvec3(shades.emitted_xyz[v]);
         if (textured) by_texel += double(w) * glm::dmat3(shades.reflected_by_texel[v]);
         point.unshot += w * view.field->unshot[v];
-        if (!view.field->error.empty())
+        if (!view.field->error.empty()) {
             point.error += w * std::hypot(view.field->error[v], view.field->interpolation_error[v]);
+            point.relative_error += w * view.field->relative_error[v];
+        }
         if (!view.field->colour_difference.empty()) point.colour_difference += w * view.field->colour_difference[v];
     }
     if (glm::dot(point.normal, point.normal) > 0) point.normal = glm::normalize(point.normal);
@@ -96,38 +97,33 @@ RadianceImage render_picture(const FieldView& view, const Camera& camera, const 
                              const std::function<void(double)>& progress) {
     RadianceImage image{params.width, params.height, {}};
     image.xyz.assign(std::size_t(params.width) * params.height, glm::vec3(0));
-    const double aspect = double(params.width) / params.height;
-    const int n = std::max(1, params.samples_per_axis);
+    const int samples = params.samples_per_axis * params.samples_per_axis;
     // XYZ of a grey whose Y is 1: the picture of a single number.
     const glm::dvec3 grey = xyz_from_rgb(srgb) * glm::dvec3(1);
-    constexpr int rows_at_once = 16;
-    for (int first = 0; first < params.height; first += rows_at_once) {
-        if (cancel.load(std::memory_order_relaxed)) return {};
-        tbb::parallel_for(first, std::min(first + rows_at_once, params.height), [&](int y) {
-            for (int x = 0; x < params.width; ++x) {
-                glm::dvec3 sum(0);
-                for (int s = 0; s < n * n; ++s) {
-                    const double u = (x + (s % n + 0.5) / n) / params.width,
-                                 v = (y + (s / n + 0.5) / n) / params.height;
-                    const auto point = field_along_ray(view, camera_ray(camera, aspect, u, v));
-                    if (!point) continue;
-                    switch (quantity) {
-                    case PictureQuantity::colour:
-                        sum += point->radiance;
-                        break;
-                    case PictureQuantity::luminance:
-                        sum += point->radiance.y * grey;
-                        break;
-                    case PictureQuantity::illuminance:
-                        sum += point->irradiance.y * grey;
-                        break;
-                    }
+    if (!for_each_pixel(params, cancel, progress, [&](int x, int y) {
+            glm::dvec3 sum(0);
+            for_each_sample(view, camera, params, x, y, [&](const FieldPoint& point) {
+                switch (quantity) {
+                case PictureQuantity::colour:
+                    sum += point.radiance;
+                    break;
+                case PictureQuantity::luminance:
+                    sum += point.radiance.y * grey;
+                    break;
+                case PictureQuantity::illuminance:
+                    sum += point.irradiance.y * grey;
+                    break;
+                case PictureQuantity::colour_difference:
+                    sum += double(point.colour_difference) * grey;
+                    break;
+                case PictureQuantity::error:
+                    sum += double(point.relative_error) * grey;
+                    break;
                 }
-                image.xyz[std::size_t(y) * params.width + x] = glm::vec3(sum / double(n * n));
-            }
-        });
-        if (progress) progress(double(std::min(first + rows_at_once, params.height)) / params.height);
-    }
+            });
+            image.xyz[std::size_t(y) * params.width + x] = glm::vec3(sum / double(samples));
+        }))
+        return {};
     return image;
 }
 

@@ -33,6 +33,7 @@ struct FieldPoint { // the field where a ray meets the scene
     std::optional<glm::vec3> texel; // linear RGB, of a textured surface
     float unshot;
     float error;               // lx, one standard deviation of the illuminance
+    float relative_error;      // in per cent of it
     float colour_difference;   // CIEDE2000 of the two approaches, of the mean texel; 0 where they are not compared
     std::uint32_t vertices[3]; // of the mesh, and what each counts: irradiance in channels is read there
     float weights[3];
@@ -52,10 +53,11 @@ glm::vec3 sample_texture(const TextureImage& image, glm::vec2 uv);
 
 struct PictureParams {
     int width = 1280, height = 800;
-    int samples_per_axis = 3; // of a pixel: 3 -> 9 rays
+    int samples_per_axis = 3; // of a pixel: 3 -> 9 rays; at least 1
 };
 
-enum class PictureQuantity { colour, luminance, illuminance }; // the last two: grey pictures of Y in cd m^-2, lx
+// All but colour: grey pictures, Y being cd m^-2, lx, or the CIEDE2000 of the field's trichromatic approach.
+enum class PictureQuantity { colour, luminance, illuminance, colour_difference, error };
 
 // Progress goes from 0 to 1. Cancelled: an empty picture.
 RadianceImage render_picture(const FieldView& view, const Camera& camera, const PictureParams& params,

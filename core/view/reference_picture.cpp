@@ -104,11 +104,11 @@ ReferencePicture trace_picture(const Solution& solution, const Camera& camera, c
     const Painter painter(solution, params.quantity);
     const double aspect = double(params.width) / params.height;
     std::vector<Sums> sums(pixels);
-    constexpr int rows_at_once = 16;
+    constexpr int rows_of_a_slice = 16;
     while (picture.passes < params.most_passes) {
-        for (int first = 0; first < params.height; first += rows_at_once) {
+        for (int first = 0; first < params.height; first += rows_of_a_slice) {
             if (cancel.load(std::memory_order_relaxed)) return {};
-            tbb::parallel_for(first, std::min(first + rows_at_once, params.height), [&](int y) {
+            tbb::parallel_for(first, std::min(first + rows_of_a_slice, params.height), [&](int y) {
                 for (int x = 0; x < params.width; ++x) {
                     const std::size_t pixel = std::size_t(y) * width + static_cast<std::size_t>(x);
                     const auto number = static_cast<std::uint32_t>(pixel);

@@ -9,6 +9,7 @@
 #include <tbb/task_arena.h>
 
 #include "core/scene/scene_file.h"
+#include "core/solve/form_factor_matrix.h"
 #include "editor/asset_path.h"
 #include "editor/commands/interrupt.h"
 #include "editor/commands/output_file.h"
@@ -65,7 +66,11 @@ std::expected<void, int> BatchSession::solve(Solution& solution, bool geometry_o
     BatchSolveParams params;
     params.time_limit = params_.time_limit;
     params.geometry_only = geometry_only;
+    bool stated = false;
     params.progress = [&](const SolveStatus& status) {
+        if (status.stage == SolveStage::form_factors && !std::exchange(stated, true))
+            error(
+                fmt::format("a matrix of {} patches takes {}", status.matrix_patches, bytes_text(status.matrix_bytes)));
         bar_.show(to_string(status.stage), status.progress, error_text(status));
     };
     solved_ = solve_batch(solution, params, cancel_);

@@ -121,10 +121,15 @@ void add_render_options(CLI::App& app, RenderCommand& render) {
                render.bits);
     app.add_flag("--spectral", render.spectral,
                  "An .exr of spectral radiance at 41 wavelengths, 380 to 780 nm, in the layout of Fichet et al. 2021");
-    add_choice(app, "--quantity", "What a pixel shows, the last two in grey or with --false-colour (colour)",
-               Choices<PictureQuantity, 3>{{{{"colour", PictureQuantity::colour},
+    add_choice(app, "--quantity",
+               "What a pixel shows, all but colour in grey or with --false-colour; colour_difference is the CIEDE2000 "
+               "between the spectral and the trichromatic approach, error the estimated one of illuminance in per cent "
+               "(colour)",
+               Choices<PictureQuantity, 5>{{{{"colour", PictureQuantity::colour},
                                              {"luminance", PictureQuantity::luminance},
-                                             {"illuminance", PictureQuantity::illuminance}}}},
+                                             {"illuminance", PictureQuantity::illuminance},
+                                             {"colour_difference", PictureQuantity::colour_difference},
+                                             {"error", PictureQuantity::error}}}},
                render.quantity);
     add_display_options(app, render);
     add_false_colour_options(app, render);

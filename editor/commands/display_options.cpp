@@ -174,13 +174,19 @@ void check_display_options(const CLI::App& app, const RenderCommand& render) {
         throw CLI::ValidationError("--gamma", "does nothing with --curve srgb; use it with --curve gamma or alone");
     if (render.false_colour.on) {
         if (render.quantity == PictureQuantity::colour)
-            throw CLI::ValidationError("--false-colour", "needs --quantity luminance or illuminance");
+            throw CLI::ValidationError("--false-colour",
+                                       "needs --quantity luminance, illuminance, colour_difference or error");
         refuse_all({"--gamma", "--max-display", "--clip", "--curve", "--operator", "--adaptation", "--primaries",
                     "--white-luminance", "--mark"},
                    "does nothing with --false-colour, which has a scale of its own");
     } else {
         refuse_all({"--scale", "--isolux"}, "does nothing without --false-colour");
     }
+    if (render.quantity == PictureQuantity::colour_difference)
+        refuse_all({"--scale", "--isolux"},
+                   "does nothing with --quantity colour_difference, whose scale is the same for all");
+    if (render.quantity == PictureQuantity::error)
+        refuse_all({"--scale", "--isolux"}, "does nothing with --quantity error, whose scale is the same for all");
     if (render.quantity == PictureQuantity::illuminance && render.max_display_rule == MaxDisplayRule::lecture)
         throw CLI::ValidationError("--max-display",
                                    "lecture is a luminance; illuminance takes a number of lx, auto or pNN");

@@ -1,6 +1,9 @@
 #include "editor/commands/form_factor_pictures.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
 
 #include "core/scene/solver_words.h"
 #include "editor/commands/form_factor_failures.h"
@@ -48,20 +51,25 @@ std::vector<Family> families() {
 std::vector<ChartSeries> series_of_methods() {
     std::vector<ChartSeries> series;
     int colour = 0;
-    for (const FormFactorMethod method : methods) series.push_back({.name = to_string(method), .colour = colour++});
+    for (const FormFactorMethod method : methods) series.push_back({to_string(method), colour++});
     return series;
 }
 
 std::optional<std::string> failures_svg(const FormFactorSettings& settings, BatchSession& session) {
-    Chart chart{.title = "Form factors: relative error of each method",
-                .note = "Curves of analytic are its stated bound: it is what the others are measured against. Below "
-                        "the axis: on its edge.",
-                .series = series_of_methods(),
-                .columns = 3};
+    Chart chart;
+    chart.title = "Form factors: relative error of each method";
+    chart.note =
+        "Curves of analytic are its stated bound: the others are measured against it. What lies below the axis is "
+        "drawn on its edge.";
+    chart.series = series_of_methods();
+    chart.columns = 3;
     const auto all = families();
     for (std::size_t f = 0; f < all.size(); ++f) {
         const Family& family = all[f];
-        ChartPanel panel{.title = family.title, .x = family.x, .y = {"relative error", floor_error, ceiling_error}};
+        ChartPanel panel;
+        panel.title = family.title;
+        panel.x = family.x;
+        panel.y = {"relative error", floor_error, ceiling_error};
         panel.curves.resize(std::size(methods));
         for (std::size_t m = 0; m < std::size(methods); ++m) panel.curves[m].series = m;
         for (std::size_t k = 0; k < family.values.size(); ++k) {
@@ -90,11 +98,11 @@ std::optional<std::string> failures_svg(const FormFactorSettings& settings, Batc
 std::optional<std::string> aliasing_svg(const FormFactorSettings& given, BatchSession& session) {
     constexpr int resolution = 64; // hemicube pixels are 1/32 m where the patch moves
     constexpr double pixel = 2.0 / resolution;
-    Chart chart{
-        .title = "One item buffer while a patch moves along: form factor found / true",
-        .note =
-            "A square 1 m above an element, under a hemicube of 64 x 64 pixels on top and hemispheres of 4096 rays.",
-        .columns = 3};
+    Chart chart;
+    chart.title = "One item buffer while a patch moves along: form factor found / true";
+    chart.note =
+        "A square 1 m above an element, under a hemicube of 64 x 64 pixels on top and hemispheres of 4096 rays.";
+    chart.columns = 3;
     struct Look {
         const char* name;
         FormFactorMethod method;
@@ -103,19 +111,19 @@ std::optional<std::string> aliasing_svg(const FormFactorSettings& given, BatchSe
     constexpr Look looks[] = {{"hemicube", FormFactorMethod::hemicube, HemisphereCells::equal},
                               {"hemisphere theta_phi", FormFactorMethod::hemisphere, HemisphereCells::theta_phi},
                               {"hemisphere equal", FormFactorMethod::hemisphere, HemisphereCells::equal}};
-    for (std::size_t l = 0; l < std::size(looks); ++l)
-        chart.series.push_back({.name = looks[l].name, .colour = static_cast<int>(l) + 1});
+    for (std::size_t l = 0; l < std::size(looks); ++l) chart.series.push_back({looks[l].name, static_cast<int>(l) + 1});
     const PlanarPolygon element = rectangle_above(0, 0, 0, 1e-3, 1e-3);
     FormFactorCase one{"", *make_planar_polygon({element.corners.rbegin(), element.corners.rend()}), {}, {}};
     for (const double size : {0.5, 1.5, 4.0}) {
-        ChartPanel panel{.title = fmt::format("{:g} pixels wide", size),
-                         .x = {"moved by, pixels", 0, 4, true},
-                         .y = {"form factor / true", 0, size < 1 ? 5.0 : 2.5, true}};
+        ChartPanel panel;
+        panel.title = fmt::format("{:g} pixels wide", size);
+        panel.x = {"moved by, pixels", 0, 4, true};
+        panel.y = {"form factor / true", 0, size < 1 ? 5.0 : 2.5, true};
         panel.level = 1;
         panel.curves.resize(std::size(looks));
-        for (int k = 0; k <= 160; ++k) {
+        for (int k = 0; k <= 120; ++k) {
             session.bar().show("pictures", 0.9, "aliasing");
-            const double moved = k / 40.0;
+            const double moved = k / 30.0;
             one.polygon2 = rectangle_above((moved + 3.1) * pixel, 2.3 * pixel, 1, size * pixel, size * pixel);
             const TrueFormFactor exact = true_form_factor(one, given.cancel);
             for (std::size_t l = 0; l < std::size(looks); ++l) {

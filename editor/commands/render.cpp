@@ -98,10 +98,9 @@ std::expected<void, std::string> write_picture(const RenderCommand& command, con
                                                const DisplaySettings& display, const ImageMetadata& metadata) {
     const bool deep = command.bits == 16;
     if (command.false_colour.on) {
-        const bool lux = command.quantity == PictureQuantity::illuminance;
-        const FalseColourSettings& scale = lux ? display.illuminance_scale : display.luminance_scale;
+        const FalseColourSettings& scale = scale_of(display, command.quantity);
         const auto write = [&](auto picture) {
-            draw_legend(picture, scale, lux ? "lx" : "cd/m2");
+            draw_legend(picture, scale, unit_of(command.quantity));
             return write_display_image(command.output, picture, metadata);
         };
         return deep ? write(deep_false_colour_image(image, scale)) : write(false_colour_image(image, scale));
@@ -126,9 +125,19 @@ int render(const RenderCommand& command, BatchSession& session) {
         return exit_mistake;
     }
     const bool traced = chosen_solver(*scene) == SolverKind::reference;
-    if (traced && command.spectral) {
-        session.error("--spectral: the reference solver traces colours, not wavelengths; another --solver does");
+    const bool of_the_field =
+        command.quantity == PictureQuantity::colour_difference || command.quantity == PictureQuantity::error;
+    if (traced && (command.spectral || of_the_field)) {
+        session.error(fmt::format("{}: the reference solver traces pictures without a field; another --solver has one",
+                                  command.spectral ? "--spectral" : "--quantity " + to_string(command.quantity)));
         return exit_mistake;
+    }
+    if (command.quantity == PictureQuantity::colour_difference) {
+        if (scene->solve.wavelengths.rule == WavelengthRule::rgb) {
+            session.error("--quantity colour_difference: compares other wavelengths with rgb; needs others than rgb");
+            return exit_mistake;
+        }
+        scene->solve.compare_trichromatic = true;
     }
     Solution solution(scene);
     if (const auto solved = session.solve(solution, traced); !solved) return solved.error();

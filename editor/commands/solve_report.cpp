@@ -43,6 +43,7 @@ std::string report_json(const std::string& command, const BatchParams& params, c
     report["stage_seconds"] = stages;
     report["solve_seconds"] = solved.seconds;
     report["rays"] = status.rays;
+    report["form_factor_cost"] = status.form_factor_cost;
     if (status.paths > 0) report["paths"] = status.paths;
     report["rays_per_receiver"] = status.rays_per_receiver;
     report["rows"] = status.receivers;
@@ -52,6 +53,13 @@ std::string report_json(const std::string& command, const BatchParams& params, c
     report["matrix_bytes"] = status.matrix_bytes;
     report["vertices"] = status.vertices;
     report["elements"] = status.elements;
+    if (chosen_solver(*solution.scene()) == SolverKind::hierarchical) {
+        report["links"] = status.links;
+        report["link_elements"] = status.link_elements;
+        report["link_levels"] = status.link_levels;
+        report["link_rounds"] = status.link_rounds;
+        report["error_bound_percent"] = 100 * status.error_bound;
+    }
     report["sweeps"] = status.sweeps;
     report["shots"] = status.shots;
     report["emitted_lumens"] = status.emitted_lumens;

@@ -59,7 +59,7 @@ std::vector<double> ticks(const ChartAxis& axis) {
                                                                 : step;
         std::vector<double> values;
         for (double n = std::ceil(axis.low / wide - 1e-9); n * wide <= axis.high + 1e-9 * wide; ++n)
-            values.push_back(n * wide);
+            values.push_back(n * wide + 0.0); // not -0
         return values;
     }
     const bool crowded = std::log10(axis.high / axis.low) > 3.2;

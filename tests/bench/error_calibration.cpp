@@ -47,6 +47,9 @@ void report(const std::string& budget, const Solution& solution, const Truth& tr
                at_vertices.ratio(), marked(at_vertices.ratio()), 100 * at_vertices.covered,
                at_vertices.covered < 0.95 ? "!" : " ", 100 * scene.truth, 100 * scene.estimate, scene.ratio(),
                marked(scene.ratio()), 100 * scene.covered, 100 * scene.reference);
+    if (options.dump)
+        fmt::print("      worst {:.0f} % at {:.3f} {:.3f} {:.3f}\n", 100 * scene.worst, scene.worst_at.x,
+                   scene.worst_at.y, scene.worst_at.z);
     std::fflush(stdout);
     if (options.dump)
         for (const test::TruePoint& p : points) {

@@ -25,7 +25,8 @@ Scene hierarchical(Scene scene, RefinementOracle oracle, double tolerance = 0, d
 template <typename F>
 void for_leaves(const Hierarchy& h, const F& f) {
     for (std::uint32_t n = 0; n < h.tree().nodes.size(); ++n)
-        if (const ElementNode& node = h.tree().nodes[n]; node.is_leaf() && !node.is_cluster() && !h.buried(n)) f(n, node);
+        if (const ElementNode& node = h.tree().nodes[n]; node.is_leaf() && !node.is_cluster() && !h.buried(n))
+            f(n, node);
 }
 
 // Of the luminous irradiance by links, mean over the area.
@@ -80,14 +81,14 @@ TEST(ElementTree, ClustersHoldEveryRootOnceAndAllItsArea) {
     for (std::uint32_t r = 0; r < tree.root_count; ++r) area += double(tree.nodes[r].area);
     EXPECT_NEAR(double(tree.nodes[tree.top].area) / area, 1, 1e-5);
     for (std::uint32_t n = tree.root_count; n < tree.nodes.size(); ++n)
-        EXPECT_EQ(tree.nodes[n].root_count,
-                  std::max(1u, tree.nodes[tree.nodes[n].children[0]].root_count) +
-                      std::max(1u, tree.nodes[tree.nodes[n].children[1]].root_count));
+        EXPECT_EQ(tree.nodes[n].root_count, std::max(1u, tree.nodes[tree.nodes[n].children[0]].root_count) +
+                                                std::max(1u, tree.nodes[tree.nodes[n].children[1]].root_count));
 }
 
 // A_r F_rs = A_s F_sr for both links of a pair, with what of each is not inside a solid as its area.
 TEST(Links, AreReciprocal) {
-    for (const RefinementOracle oracle : {RefinementOracle::form_factor, RefinementOracle::flux, RefinementOracle::error}) {
+    for (const RefinementOracle oracle :
+         {RefinementOracle::form_factor, RefinementOracle::flux, RefinementOracle::error}) {
         const Solution solution = test::solved(
             hierarchical(test::small_room(), oracle, oracle == RefinementOracle::form_factor ? 0.1 : 0, 0.1));
         ASSERT_TRUE(solution.status().settled) << solution.status().message;
@@ -165,7 +166,8 @@ TEST(Hierarchical, CoarseAgreesWithFineWithinItsBound) {
 }
 
 TEST(Hierarchical, EndsWhenNothingCanBeCutAnyMore) { // LECTURE correction 43
-    for (const RefinementOracle oracle : {RefinementOracle::form_factor, RefinementOracle::flux, RefinementOracle::error}) {
+    for (const RefinementOracle oracle :
+         {RefinementOracle::form_factor, RefinementOracle::flux, RefinementOracle::error}) {
         Scene scene = hierarchical(test::furnace(0.5), oracle, 1e-12);
         scene.solve.element_size = 1.1; // of which sixteenths are cut
         const Solution solution = test::solved(scene);
@@ -187,8 +189,9 @@ TEST(Hierarchical, ADimmerKeepsTheLinks) {
     solution.update(std::make_shared<const Scene>(dimmed), SolveFrom::sources);
     test::settle(solution);
     ASSERT_TRUE(solution.status().settled) << solution.status().message;
-    EXPECT_EQ(solution.status().rays, rays); // the flux of a link as a share of the emitted is what it was
-    EXPECT_EQ(solution.status().links, links);
+    // The flux of a link as a share of the emitted is what it was, but for what the sweeps leave.
+    EXPECT_LT(double(solution.status().rays), 1.01 * double(rays));
+    EXPECT_NEAR(double(solution.status().links) / double(links), 1, 0.01);
     EXPECT_NEAR(mean_light(*solution.state().hierarchy) / before, 0.5, 1e-3);
 }
 
@@ -237,8 +240,8 @@ TEST(HierarchyView, LinksOfAnElementBringItsLight) {
         double sum = 0;
         for (const LinkLine& line : links_of(view, n)) sum += double(line.irradiance);
         double light = 0;
-        const std::vector<float> weights = h.weights();
-        for (std::size_t c = 0; c < weights.size(); ++c) light += double(weights[c]) * double(h.irradiance()[n][c]);
+        const auto& weights = solution.state().wavelengths->xyz_weight;
+        for (std::size_t c = 0; c < weights.size(); ++c) light += weights[c].y * double(h.irradiance()[n][c]);
         EXPECT_NEAR(sum, light, 0.01 * light + 1e-6);
         ++looked;
     });

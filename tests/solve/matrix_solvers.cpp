@@ -34,8 +34,10 @@ TEST(MatrixSolvers, FurnaceAndItsBounces) {
     for (const Method method : test::all_methods) {
         MatrixSystem system = test::system_of(cube, test::field_of(rho), test::field_of(e), 5);
         ASSERT_GT(test::converge(system, method, 1e-9, 100000), 0) << test::name(method);
+        // Of five floats a row sum is off by 3e-8 at most, and 1 / (1 - rho) multiplies that.
         for (int c = 0; c < 5; ++c)
-            expect_near(system.radiosity(), c, std::vector<double>(6, 1 / (1 - rhos[c])), 1e-6, test::name(method));
+            expect_near(system.radiosity(), c, std::vector<double>(6, 1 / (1 - rhos[c])), 1e-7 + 3e-8 / (1 - rhos[c]),
+                        test::name(method));
     }
     MatrixSystem jacobi = test::system_of(cube, test::field_of(rho), test::field_of(e), 5);
     for (int bounce = 1; bounce <= 10; ++bounce) {
@@ -245,9 +247,9 @@ TEST(MatrixSolvers, AllGiveTheSameRadiositiesOnTheSameFormFactors) {
         for (int c = 0; c < channels; ++c)
             rho[i][c] = i % 10 == 0 ? 0 : 0.95 * unit(random), e[i][c] = i % 50 == 7 ? unit(random) : 0;
     const std::atomic<bool> never{false};
-    const auto exact = conjugate_gradients(f, rho, e, channels, 1e-12, 500, never);
+    const auto exact = conjugate_gradients(f, rho, e, channels, 1e-9, 500, never);
     ASSERT_TRUE(exact.has_value()) << exact.error();
-    EXPECT_LT(test::residual_of(f, exact->radiosity, rho, e, channels), 1e-8);
+    EXPECT_LT(test::residual_of(f, exact->radiosity, rho, e, channels), 1e-7);
     for (const Method method : test::all_methods) {
         MatrixSystem system = test::system_of(f, rho, e, channels);
         const int steps = test::converge(system, method, 1e-9, 1000000);
@@ -288,7 +290,7 @@ TEST(MatrixSolvers, JacobiResidualAndGaussSeidelErrorFallBySweep) {
         const double residual = jacobi.relative_residual(), gauss_error = error(gauss);
         test::one_step(jacobi, Method::jacobi), test::one_step(gauss, Method::gauss_seidel);
         EXPECT_LE(jacobi.relative_residual(), 0.9 * residual * (1 + 1e-9)) << sweep;
-        EXPECT_LE(error(gauss), 0.9 * gauss_error * (1 + 1e-9)) << sweep;
+        EXPECT_LE(error(gauss), 0.9 * gauss_error + 1e-11) << sweep; // but for rounding of numbers near 10
         ahead += error(gauss) < error(jacobi);
         // The residual that is said, known without another application of F, is the residual there is.
         const PatchField before = gauss.radiosity();
@@ -361,7 +363,7 @@ TEST(MatrixSolvers, RowsAboveOneAreScaledAndBrokenNumbersTakenOut) {
     EXPECT_EQ(sums.above, 3u);
     EXPECT_EQ(sums.broken, 3u);
     EXPECT_NEAR(sums.largest, 1.05, 1e-5);
-    for (std::uint32_t i = 0; i < 6; ++i) EXPECT_LE(row_sum(f, i), 1.0);
+    for (std::uint32_t i = 0; i < 6; ++i) EXPECT_LE(sums.sum[i], 1.0);
     const PatchField rho = test::field_of({std::vector<double>(6, 0.999)}), e = test::field_of({{0, 1, 0, 0, 0, 0}});
     for (const Method method : test::all_methods) {
         MatrixSystem system = test::system_of(f, rho, e, 1);
@@ -371,23 +373,25 @@ TEST(MatrixSolvers, RowsAboveOneAreScaledAndBrokenNumbersTakenOut) {
 }
 
 TEST(MatrixSolvers, NoFiniteSolutionIsFoundBeforeAnySweep) {
-    const FormFactorMatrix cube = test::cube();
+    FormFactorMatrix cube = test::cube();
+    const RowSums closed = limit_row_sums(cube);
     const PatchField e = test::field_of({{0, 1, 0, 0, 0, 0}}), dark = test::field_of({std::vector<double>(6, 0.0)});
     const PatchField white = test::field_of({std::vector<double>(6, 1.0)});
-    EXPECT_TRUE(has_no_finite_solution(cube, white, e, 1));
-    EXPECT_FALSE(has_no_finite_solution(cube, white, dark, 1)) << "no light: black";
-    EXPECT_FALSE(has_no_finite_solution(cube, test::field_of({{1, 1, 1, 1, 1, 0.5}}), e, 1));
-    EXPECT_FALSE(has_no_finite_solution(cube, test::field_of({std::vector<double>(6, 1 - 1e-6)}), e, 1));
+    EXPECT_TRUE(has_no_finite_solution(cube, closed, white, e, 1));
+    EXPECT_FALSE(has_no_finite_solution(cube, closed, white, dark, 1)) << "no light: black";
+    EXPECT_FALSE(has_no_finite_solution(cube, closed, test::field_of({{1, 1, 1, 1, 1, 0.5}}), e, 1));
+    EXPECT_FALSE(has_no_finite_solution(cube, closed, test::field_of({std::vector<double>(6, 1 - 1e-6)}), e, 1));
     FormFactorMatrix open = cube;
     for (std::uint32_t j = 0; j < 6; ++j) open.row(4)[j] *= 0.9f;
-    EXPECT_FALSE(has_no_finite_solution(open, white, e, 1)) << "light leaves through a crack";
+    EXPECT_FALSE(has_no_finite_solution(open, limit_row_sums(open), white, e, 1)) << "light leaves through a crack";
     // Two rooms that do not see each other: only one is closed and white, and it matters whether it has a lamp.
     std::vector<std::vector<double>> rows(4, std::vector<double>(4, 0.0));
     rows[0][1] = rows[1][0] = rows[2][3] = rows[3][2] = 1;
-    const FormFactorMatrix rooms = test::matrix_of({1, 1, 1, 1}, rows);
+    FormFactorMatrix rooms = test::matrix_of({1, 1, 1, 1}, rows);
+    const RowSums apart = limit_row_sums(rooms);
     const PatchField paints = test::field_of({{1, 1, 0.5, 0.5}});
-    EXPECT_TRUE(has_no_finite_solution(rooms, paints, test::field_of({{1, 0, 0, 0}}), 1));
-    EXPECT_FALSE(has_no_finite_solution(rooms, paints, test::field_of({{0, 0, 1, 0}}), 1));
+    EXPECT_TRUE(has_no_finite_solution(rooms, apart, paints, test::field_of({{1, 0, 0, 0}}), 1));
+    EXPECT_FALSE(has_no_finite_solution(rooms, apart, paints, test::field_of({{0, 0, 1, 0}}), 1));
 }
 
 TEST(MatrixSolvers, NewSourcesGoOnFromWhatWasSent) {

@@ -66,6 +66,8 @@ struct ErrorVerdict {
     double estimate = 0;  // relative RMS of what the field says
     double covered = 0;   // share of true values within the stated 95 % interval
     double reference = 0; // relative RMS standard error of the paths
+    double worst = 0;     // of the true errors
+    glm::vec3 worst_at{0};
     int counted = 0;
     double ratio() const { return estimate > 0 ? truth / estimate : (truth > 0 ? 1e9 : 1); }
 };
@@ -118,6 +120,8 @@ inline ErrorVerdict judge_scene(const Solution& solution, const Field& field, co
         verdict.truth += (error * error - p.standard_error * p.standard_error) / square;
         verdict.reference += p.standard_error * p.standard_error / square;
         covered += std::abs(error) <= std::hypot(field.interval_factor * std::sqrt(variance), 2.13 * p.standard_error);
+        if (std::abs(error) / p.illuminance > verdict.worst)
+            verdict.worst = std::abs(error) / p.illuminance, verdict.worst_at = p.position;
         ++verdict.counted;
     }
     const double n = std::max(1, verdict.counted);

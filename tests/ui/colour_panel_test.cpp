@@ -1,17 +1,13 @@
 // The colour panel: readings of lights, worked out once, and the diagram's marks.
 #include "ui/panels.h"
 
-#include <filesystem>
-#include <fstream>
-
 #include <gtest/gtest.h>
 #include <imgui.h>
-#include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include "core/spectrum/colour_temperature.h"
 #include "core/spectrum/observer.h"
 #include "tests/support/scenes.h"
+#include "tests/ui/panel_fixture.h"
 
 namespace lueur {
 namespace {
@@ -49,21 +45,10 @@ TEST(LightReadings, AreWorkedOutWhenTheSpectrumChanges) {
     EXPECT_EQ(readings.of(Flat{}).xy.x, LightReadings().of(Flat{}).xy.x);
 }
 
-class ColourPanel : public testing::Test {
+class ColourPanel : public test::PanelFixture {
 protected:
     void SetUp() override {
-        layout_file_ = std::filesystem::temp_directory_path() / ("lueur-colour-" + std::to_string(getpid()) + ".json");
-        setenv("LUEUR_UI_LAYOUT", layout_file_.c_str(), 1);
-        ImGui::CreateContext();
-        auto& io = ImGui::GetIO();
-        io.IniFilename = nullptr;
-        io.DisplaySize = {1280, 800};
-        io.DeltaTime = 1.0f / 60;
-        apply_theme(1);
-        std::string complaint;
-        const Fonts fonts = load_fonts(1, complaint);
-        state_ = std::make_unique<UiState>();
-        state_->fonts = fonts;
+        PanelFixture::SetUp();
         test::SceneBuilder builder;
         const auto grey = builder.material("grey", 0.6);
         std::vector<ObjectIndex> lamps;
@@ -78,28 +63,11 @@ protected:
         builder.light("warm too", {lamps[3]}, PowerUnit::lumen, 500, Blackbody{2700});
         document_ = Document(builder.build());
     }
-    void TearDown() override {
-        state_.reset();
-        ImGui::DestroyContext();
-        unsetenv("LUEUR_UI_LAYOUT");
-        std::filesystem::remove(layout_file_);
-    }
     void frame() {
-        ImGui::NewFrame();
-        ImGui::SetNextWindowPos({0, 0});
-        ImGui::SetNextWindowSize({348, 780});
-        ImGui::Begin("panel", nullptr, ImGuiWindowFlags_NoDecoration);
-        colour_panel(document_, *state_);
-        ImGui::End();
-        ImGui::Render();
-        state_->layout_log.end_frame();
-    }
-    nlohmann::json widgets() const {
-        std::ifstream stream(layout_file_);
-        return nlohmann::json::parse(stream).at("widgets");
+        draw_frame([&] { colour_panel(document_, *state_); });
     }
     void click(const std::string& name) {
-        const auto box = widgets().at(name).get<std::array<float, 4>>();
+        const auto box = box_of(name);
         auto& io = ImGui::GetIO();
         io.MousePos = {0.5f * (box[0] + box[2]), 0.5f * (box[1] + box[3])};
         frame();
@@ -108,10 +76,6 @@ protected:
         io.MouseDown[0] = false;
         frame();
     }
-
-    std::filesystem::path layout_file_;
-    std::unique_ptr<UiState> state_;
-    Document document_;
 };
 
 TEST_F(ColourPanel, MarksLuminairesAndTheProbe) {

@@ -2,15 +2,13 @@
 // edit.
 #include "ui/panels.h"
 
-#include <fstream>
 #include <functional>
 
 #include <gtest/gtest.h>
 #include <imgui.h>
-#include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include "tests/support/scenes.h"
+#include "tests/ui/panel_fixture.h"
 
 namespace lueur {
 namespace {
@@ -38,44 +36,17 @@ Scene scene_of_all_kinds() {
     return builder.build();
 }
 
-class PanelsTest : public testing::Test {
+class PanelsTest : public test::PanelFixture {
 protected:
     void SetUp() override {
-        layout_file_ = std::filesystem::temp_directory_path() / ("lueur-panels-" + std::to_string(getpid()) + ".json");
-        setenv("LUEUR_UI_LAYOUT", layout_file_.c_str(), 1);
-        ImGui::CreateContext();
-        auto& io = ImGui::GetIO();
-        io.IniFilename = nullptr;
-        io.DisplaySize = {1280, 800};
-        io.DeltaTime = 1.0f / 60;
-        apply_theme(1);
-        std::string complaint;
-        fonts_ = load_fonts(1, complaint);
-        state_ = std::make_unique<UiState>();
-        state_->fonts = fonts_;
+        PanelFixture::SetUp();
         document_ = Document(scene_of_all_kinds());
-    }
-    void TearDown() override {
-        state_.reset();
-        ImGui::DestroyContext();
-        unsetenv("LUEUR_UI_LAYOUT");
-        std::filesystem::remove(layout_file_);
     }
 
     std::optional<Edit> frame(Panel panel) {
-        ImGui::NewFrame();
-        ImGui::SetNextWindowPos({0, 0});
-        ImGui::SetNextWindowSize({348, 780});
-        ImGui::Begin("panel", nullptr, ImGuiWindowFlags_NoDecoration);
-        auto edit = panel(document_, snapshot_, *state_);
-        ImGui::End();
-        ImGui::Render();
-        state_->layout_log.end_frame();
+        std::optional<Edit> edit;
+        draw_frame([&] { edit = panel(document_, snapshot_, *state_); });
         return edit;
-    }
-    std::array<float, 4> widget(const std::string& name) {
-        std::ifstream stream(layout_file_);
-        return nlohmann::json::parse(stream).at("widgets").at(name).get<std::array<float, 4>>();
     }
     // Presses at one place of the widget and lets go at another, in shares of its width; every edit on the way is
     // applied.
@@ -89,7 +60,7 @@ protected:
             }
         };
         frame(panel);
-        const auto box = widget(name);
+        const auto box = box_of(name);
         const float y = 0.5f * (box[1] + box[3]);
         io.MousePos = {box[0] + from * (box[2] - box[0]), y};
         step();
@@ -106,10 +77,6 @@ protected:
         return edits;
     }
 
-    std::filesystem::path layout_file_;
-    Fonts fonts_;
-    std::unique_ptr<UiState> state_;
-    Document document_;
     Snapshot snapshot_;
 };
 

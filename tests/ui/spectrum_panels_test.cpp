@@ -1,14 +1,12 @@
 // Spectra chosen and made in the panels, with real clicks in an ImGui context without a window.
 #include <array>
-#include <fstream>
 
 #include <gtest/gtest.h>
 #include <imgui.h>
-#include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include "core/spectrum/operations.h"
 #include "tests/support/scenes.h"
+#include "tests/ui/panel_fixture.h"
 #include "ui/dropped_files.h"
 #include "ui/panels.h"
 #include "ui/spectrum_plot.h"
@@ -16,22 +14,10 @@
 namespace lueur {
 namespace {
 
-class SpectrumPanels : public testing::Test {
+class SpectrumPanels : public test::PanelFixture {
 protected:
     void SetUp() override {
-        layout_file_ = std::filesystem::temp_directory_path() / ("lueur-spectra-" + std::to_string(getpid()) + ".json");
-        setenv("LUEUR_UI_LAYOUT", layout_file_.c_str(), 1);
-        ImGui::CreateContext();
-        auto& io = ImGui::GetIO();
-        io.IniFilename = nullptr;
-        io.DisplaySize = {1280, 800};
-        io.DeltaTime = 1.0f / 60;
-        for (int key = 0; key < ImGuiKey_COUNT; ++key) io.KeyMap[key] = key;
-        apply_theme(1);
-        std::string complaint;
-        fonts_ = load_fonts(1, complaint);
-        state_ = std::make_unique<UiState>();
-        state_->fonts = fonts_;
+        PanelFixture::SetUp();
         test::SceneBuilder builder;
         const auto grey = builder.material("grey", 0.6);
         builder.material("drawn", Drawn{{{400, 500, 600, 700}, {0.1, 0.9, 0.9, 0.2}}});
@@ -42,26 +28,14 @@ protected:
         state_->luminaire = LuminaireIndex{0};
         state_->material = MaterialIndex{1};
     }
-    void TearDown() override {
-        state_.reset();
-        ImGui::DestroyContext();
-        unsetenv("LUEUR_UI_LAYOUT");
-        std::filesystem::remove(layout_file_);
-    }
-
     using Panel = std::optional<Edit> (*)(const Document&, const Snapshot&, UiState&);
     void frame() {
-        ImGui::NewFrame();
-        ImGui::SetNextWindowPos({0, 0});
-        ImGui::SetNextWindowSize({348, 780});
-        ImGui::Begin("panel", nullptr, ImGuiWindowFlags_NoDecoration);
-        if (const auto edit = panel_(document_, snapshot_, *state_)) {
-            const auto applied = document_.apply(*edit);
-            EXPECT_TRUE(applied.has_value()) << (applied ? "" : applied.error());
-        }
-        ImGui::End();
-        ImGui::Render();
-        state_->layout_log.end_frame();
+        draw_frame([&] {
+            if (const auto edit = panel_(document_, snapshot_, *state_)) {
+                const auto applied = document_.apply(*edit);
+                EXPECT_TRUE(applied.has_value()) << (applied ? "" : applied.error());
+            }
+        });
         for (const Command command : std::exchange(state_->commands, {}))
             if (command == Command::undo) document_.undo();
         const bool active = ImGui::IsAnyItemActive(); // as the window does it
@@ -70,8 +44,7 @@ protected:
     }
     std::array<float, 4> widget(const std::string& name) {
         frame();
-        std::ifstream stream(layout_file_);
-        return nlohmann::json::parse(stream).at("widgets").at(name).get<std::array<float, 4>>();
+        return box_of(name);
     }
     void press(int button, ImVec2 at) {
         ImGui::GetIO().MousePos = at;
@@ -108,10 +81,6 @@ protected:
     const EmissionSpectrum& light() const { return document_.scene().luminaires[0].spectrum; }
     const Spectrum& drawn() const { return std::get<Drawn>(document_.scene().materials[1].reflectance).spectrum; }
 
-    std::filesystem::path layout_file_;
-    Fonts fonts_;
-    std::unique_ptr<UiState> state_;
-    Document document_;
     Snapshot snapshot_;
     Panel panel_ = luminaires_panel;
     bool was_active_ = false;

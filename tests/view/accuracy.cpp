@@ -10,6 +10,7 @@
 #include "core/spectrum/rgb_basis.h"
 #include "core/view/measure.h"
 #include "core/view/picture.h"
+#include "core/view/radiance_channels.h"
 #include "core/view/spectral_picture.h"
 #include "tests/support/scenes.h"
 #include "tests/support/source_folder.h"
@@ -139,6 +140,37 @@ TEST(Picture, FurnaceIsOneColour) {
     for (const glm::vec3& xyz : lux.xyz) EXPECT_NEAR(xyz.y / (2 * 683 * 106.857 / 400), 1, 2e-3);
     const std::atomic<bool> always{true};
     EXPECT_TRUE(render_picture(view, camera, {64, 40, 2}, PictureQuantity::colour, always).xyz.empty());
+}
+
+// The channels of a radiance add up to the XYZ that the picture shows, on lamps, paints and textures.
+TEST(Picture, RadianceInChannelsIsTheRadianceShown) {
+    auto loaded = load_scene(test::source_folder() / "assets/cornell.toml");
+    ASSERT_TRUE(loaded);
+    Scene scene = loaded->scene;
+    auto image = std::make_shared<TextureImage>();
+    image->width = 2, image->height = 1;
+    image->rgb = {glm::vec3(0.1f, 0.5f, 0.3f), glm::vec3(0.7f, 0.5f, 0.9f)};
+    scene.materials[0].texture = Texture{"checker", image, Rgb(0.4, 0.5, 0.6)};
+    scene.solve.compare_trichromatic = true;
+    const Solution solution = test::solved(scene);
+    const FieldView view{solution.scene(), solution.mesh(), solution.world(), solution.field()};
+    const RadianceChannels radiance(*view.scene, *view.field->wavelengths);
+    int points = 0, lamps = 0, textured = 0, different = 0;
+    for (int i = 0; i < 400; ++i) {
+        const auto point =
+            field_along_ray(view, camera_ray(scene.camera, 1.6, (i % 20 + 0.5) / 20, (i / 20 + 0.5) / 20));
+        if (!point) continue;
+        const auto channels = radiance.at(*view.scene, *view.field, *point);
+        EXPECT_EQ(channels, radiance_channels(*view.scene, *view.field, *point));
+        const Xyz xyz = xyz_from_channels(*view.field->wavelengths, channels);
+        for (int c = 0; c < 3; ++c) ASSERT_NEAR(xyz[c], point->radiance[c], 2e-4 * point->radiance.y + 1e-6);
+        ++points, lamps += point->emitted.y > 0, textured += point->texel.has_value();
+        different += point->colour_difference > 0.1f;
+    }
+    EXPECT_GT(points, 200);
+    EXPECT_GT(lamps, 0);
+    EXPECT_GT(textured, 0);
+    EXPECT_GT(different, 20) << "the trichromatic approach is not the spectral one";
 }
 
 Scene textured_furnace(const Rgb& mean) {

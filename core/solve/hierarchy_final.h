@@ -1,0 +1,43 @@
+// The last gather, at the vertices that are shown: each vertex takes the links of its element and of the nodes above
+// it, with form factors and visibility of its own (after Smits 1994's local pass; Lischinski, Tampieri & Greenberg
+// 1993). What a link smears over its receiver, the fall of light towards a corner or a contact shadow, comes back; the
+// links and the radiosities they carry stay. Factors are kept, so that an edit of a lamp or a paint costs no ray.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <vector>
+
+#include "core/solve/hierarchy_field.h"
+#include "core/transport/world.h"
+
+namespace lueur {
+
+class FinalGather {
+public:
+    // origins: where rays of the vertices start; buried ones take no part. All must outlive trace().
+    FinalGather(const Hierarchy& hierarchy, const Mesh& mesh, const std::vector<glm::vec3>& origins,
+                const std::vector<LeafReading>& readings, const std::vector<std::uint8_t>& buried);
+
+    std::size_t factors() const { return source_.size(); }
+    bool trace(const World& world, const Hierarchy& hierarchy,
+               const std::atomic<bool>& cancel); // a slice; true at the end
+    double progress() const { return vertices_ > 0 ? double(cursor_) / vertices_ : 1; }
+    std::uint64_t rays() const { return rays_.load(); }
+
+    ChannelField irradiance(const Hierarchy& hierarchy, int channels) const;
+
+private:
+    void look_from(const World& world, const Hierarchy& hierarchy, std::uint32_t vertex);
+
+    const Mesh& mesh_;
+    const std::vector<glm::vec3>& origins_;
+    std::uint32_t vertices_ = 0, cursor_ = 0;
+    std::vector<std::size_t> first_;    // of each vertex, one more than vertices
+    std::vector<std::uint32_t> source_; // node
+    std::vector<float> factor_;         // F from the vertex
+    std::vector<float> scale_;          // of the row
+    std::atomic<std::uint64_t> rays_{0};
+};
+
+} // namespace lueur
