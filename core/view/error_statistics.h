@@ -18,8 +18,8 @@ struct ErrorStatistics {
     double rms_without_noise = 0; // never below `resolution`
     double reference_error = 0;   // RMS of the reference's relative standard errors
     double resolution = 0;        // resolution_of(reference_error, counted)
-    int counted = 0; // points with both figures
-    int missing = 0; // bright points that the method has no finite figure for
+    int counted = 0;              // points with both figures
+    int missing = 0;              // bright points that the method has no finite figure for
 };
 
 inline constexpr double dark_share = 0.02; // of the mean illuminance

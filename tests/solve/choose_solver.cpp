@@ -33,6 +33,13 @@ TEST(ChooseSolver, WhatIsAskedForIsTaken) {
     }
 }
 
+// The front of the charts (choose_solver.cpp).
+TEST(ChooseSolver, IsOnTheFrontOfWhatWasCharted) {
+    for (const SceneClass& charted :
+         {SceneClass{32, 0.01, 0.02}, SceneClass{12, 1, 0.02}, SceneClass{30000, 0.001, 0.02}})
+        EXPECT_EQ(choose_solver(charted), SolverKind::gathering);
+}
+
 // Else the solver would change under the hand that drags the slider of a paint or a dimmer.
 TEST(ChooseSolver, PaintsAndDimmersDoNotMatter) {
     Scene room = test::small_room();
