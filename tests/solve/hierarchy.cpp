@@ -112,7 +112,7 @@ TEST(Links, AreReciprocal) {
 // Furnace: B = E / (1 - rho). Rows that sum to 1 keep it exactly; the lecture's disks lose energy at touching walls.
 TEST(Hierarchical, FurnaceIsExactWithRowsOfOne) {
     for (const double rho : {0.0, 0.5, 0.9}) {
-        const Solution solution = test::solved(hierarchical(test::furnace(rho), RefinementOracle::error));
+        const Solution solution = test::solved(hierarchical(test::furnace(rho), RefinementOracle::error, 0, 0.5));
         ASSERT_TRUE(solution.status().settled) << solution.status().message;
         const Hierarchy& h = *solution.state().hierarchy;
         // Direct light apart: what links bring is rho / (1 - rho) of E.
