@@ -64,7 +64,7 @@ void legend(const UiState& state, const ViewportState& view, const DisplaySettin
         draw_legend(state, x, y, "Colour difference spectral - RGB, CIEDE2000", colour_difference_scale());
         return;
     case ViewMode::error:
-        draw_legend(state, x, y, "Estimated error of illuminance (one standard deviation), %", error_scale());
+        draw_legend(state, x, y, "Estimated error (one sigma), %", error_scale());
         return;
     case ViewMode::unshot:
         draw_legend(state, x, y, "Unshot light, lm/m²", unshot_scale(state.unshot_top));
