@@ -32,8 +32,8 @@ struct SolveStatus {
     std::uint64_t row_entries = 0;
     std::uint32_t rays_per_receiver = 0;
     std::uint32_t sweeps = 0, shots = 0;
-    double residual = 1;                // |r| / |E| of the system solved, worst channel; hierarchical: change in a sweep
-    std::uint32_t matrix_patches = 0;   // that a full matrix would have here; known once there is a mesh
+    double residual = 1;              // |r| / |E| of the system solved, worst channel; hierarchical: change in a sweep
+    std::uint32_t matrix_patches = 0; // that a full matrix would have here; known once there is a mesh
     std::uint64_t form_factor_cost = 0; // rays, pixels or kernel evaluations, for form factors between patches
     std::uint64_t matrix_bytes = 0;     // and the memory it takes, taken only by the solvers that keep one
     std::uint32_t links = 0, link_elements = 0, link_levels = 0, link_rounds = 0; // hierarchical

@@ -35,8 +35,9 @@ Scene with_rays(Scene scene, int rays) {
 
 } // namespace
 
-// Not held here, since it does not hold: at 64 rays 90 % lie inside (a vertex at a block's foot reads the same dark floor
-// as the probes that judge it), and shooting says less than half of its error (its form factors' own error is not in it).
+// Not held here, since it does not hold: at 64 rays 90 % lie inside (a vertex at a block's foot reads the same dark
+// floor as the probes that judge it), and shooting says less than half of its error (its form factors' own error is not
+// in it).
 TEST(ErrorEstimate, IsRightOnTheCornellBox) {
     const auto loaded = load_scene(test::source_folder() / "assets/cornell.toml");
     ASSERT_TRUE(loaded) << loaded.error().front();
