@@ -140,6 +140,7 @@ void Worker::State::publish(bool is_paused) {
     next->status = solution->status();
     // The field knows its error better than the solver, which looks at it now and then.
     if (next->field) next->status.estimated_error = next->field->scene_error;
+    if (next->field && !history.empty()) history.back().error = next->field->scene_error;
     next->status.paused = is_paused;
     next->history = history;
     {

@@ -110,13 +110,18 @@ std::vector<std::uint8_t> rim_of(const Mesh& mesh, const std::vector<std::uint8_
     return rim;
 }
 
-// Of each luminaire that has been lit, lm m^-2.
+// Direct light is in what is shown, apart or through form factors; only shooting leaves out luminaires that have not
+// shot yet.
+bool is_shown(const State& s, std::size_t luminaire) {
+    return s.solver() != SolverKind::shooting || s.luminaire_is_lit(luminaire);
+}
+
+// Of each luminaire whose light is shown, lm m^-2.
 std::vector<double> luminous_exitances(const State& s) {
     std::vector<double> exitance;
     for (std::size_t l = 0; l < s.direct->emitter_count(); ++l)
-        exitance.push_back(s.luminaire_is_lit(l)
-                               ? xyz_from_channels(*s.wavelengths, std::span<const double>(s.luminaire_exitance[l])).y
-                               : 0);
+        exitance.push_back(
+            is_shown(s, l) ? xyz_from_channels(*s.wavelengths, std::span<const double>(s.luminaire_exitance[l])).y : 0);
     return exitance;
 }
 
@@ -126,7 +131,7 @@ Light light_of(const State& s, const Field& field) {
     light.area = vertex_areas(s.mesh);
     light.buried = s.all_buried();
     const std::vector<double> exitance = luminous_exitances(s);
-    std::vector<double> all; // lit or not
+    std::vector<double> all; // shown or not
     for (const auto& channels : s.luminaire_exitance)
         all.push_back(xyz_from_channels(*s.wavelengths, std::span<const double>(channels)).y);
     double caught = 0;
@@ -136,7 +141,7 @@ Light light_of(const State& s, const Field& field) {
             d += s.direct->at_vertex(v)[l] * exitance[l];
             const double deviation = s.direct->deviation_at_vertex(v)[l] * exitance[l];
             variance += deviation * deviation;
-            if (!s.luminaire_is_lit(l)) unlit += s.direct->at_vertex(v)[l] * all[l];
+            if (!is_shown(s, l)) unlit += s.direct->at_vertex(v)[l] * all[l];
         }
         const float y = field.irradiance_xyz[v].y;
         light.total.push_back(y);
@@ -222,7 +227,6 @@ std::vector<Residual> residuals(const State& s, const Light& light, const Model&
     const std::vector<double> exitance = luminous_exitances(s);
     constexpr int sets = ErrorProbes::sets, per_set = ErrorProbes::rays / sets;
     std::vector<float> reflected = light.reflected;
-    reflected.push_back(0); // outside
     for (std::size_t i = 0; i < s.probes.points.size(); ++i) {
         const ErrorProbes::Point& p = s.probes.points[i];
         double direct[sets] = {}, indirect[sets] = {};
@@ -230,7 +234,8 @@ std::vector<Residual> residuals(const State& s, const Light& light, const Model&
             for (std::size_t l = 0; l < emitters; ++l)
                 direct[set] += double(s.probes.direct[(i * sets + std::size_t(set)) * emitters + l]) * exitance[l];
             for (int k = 0; k < per_set; ++k)
-                indirect[set] += double(reflected[s.probes.ends[i * ErrorProbes::rays + set * per_set + k]]) / per_set;
+                if (const std::uint32_t end = s.probes.ends[i * ErrorProbes::rays + set * per_set + k]; end != no_index)
+                    indirect[set] += double(reflected[end]) / per_set;
         }
         Residual r{};
         r.point = &p;

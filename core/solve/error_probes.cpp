@@ -106,7 +106,7 @@ void place_probes(const World& world, const Mesh& mesh, const DirectTransport& d
         probes.points.push_back(p);
     }
     probes.direct.assign(probes.points.size() * ErrorProbes::sets * direct.emitter_count(), 0);
-    probes.ends.assign(probes.points.size() * ErrorProbes::rays, static_cast<std::uint32_t>(mesh.vertices.size()));
+    probes.ends.assign(probes.points.size() * ErrorProbes::rays, no_index);
 }
 
 bool trace_probes(const World& world, const Mesh& mesh, const DirectTransport& direct,

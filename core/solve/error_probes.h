@@ -30,7 +30,7 @@ struct ErrorProbes {
 
     std::vector<Point> points;
     std::vector<float> direct;       // points * sets * emitters: D
-    std::vector<std::uint32_t> ends; // points * rays, set by set: the fine vertex each ray ends at, or their number
+    std::vector<std::uint32_t> ends; // points * rays, set by set: the fine vertex each ray ends at; no_index: outside
     std::uint32_t cursor = 0;
     bool complete() const { return !points.empty() && cursor == points.size(); }
 };

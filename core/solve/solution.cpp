@@ -53,6 +53,18 @@ void step_solve(State& s, const std::atomic<bool>& cancel, bool one_shot) {
     }
 }
 
+// What only another solver can use, and may be large. A matrix serves all that are solved on one.
+void forget_other_solvers(State& s) {
+    if (!uses_form_factors(s.solver())) s.patch_solve = {};
+    if (s.solver() != SolverKind::shooting) s.shooting = {};
+    if (s.solver() != SolverKind::reference) s.traced.reset();
+    if (s.solver() != SolverKind::hierarchical) {
+        s.final_gather.reset();
+        s.hierarchy.reset();
+        s.hierarchy_view.reset();
+    }
+}
+
 } // namespace
 
 void start_solver(State& s, bool same_sources) {
@@ -110,6 +122,10 @@ void Solution::update(std::shared_ptr<const Scene> scene, SolveFrom stale) {
     s.scene = std::move(scene);
     s.chosen = chosen_solver(*s.scene);
     if (stale == SolveFrom::nothing) return;
+    // Leaves have cut the mesh as links asked for it; other solvers, and other links, start from their own.
+    const bool other_links =
+        s.scene->solve.oracle != before.oracle || s.scene->solve.link_tolerance != before.link_tolerance;
+    if (s.leaf_mesh && (s.solver() != solver_before || other_links)) stale = SolveFrom::mesh;
     s.stock.reset();
     s.status.seconds = 0;
     s.status.last_edit_seconds = 0;
@@ -119,6 +135,7 @@ void Solution::update(std::shared_ptr<const Scene> scene, SolveFrom stale) {
         auto fresh = std::make_unique<State>();
         fresh->scene = s.scene;
         fresh->chosen = s.chosen;
+        fresh->choice = s.choosing.valid() ? s.choosing.get() : std::move(s.choice);
         state_ = std::move(fresh);
         plan_channels(*state_);
         return;
@@ -131,12 +148,13 @@ void Solution::update(std::shared_ptr<const Scene> scene, SolveFrom stale) {
     const SameChannels same = take_channels(s);
     const SolveSettings& now = s.scene->solve;
     if (s.solver() != solver_before || !same.channels || stale == SolveFrom::black || stale == SolveFrom::transport ||
-        s.phase == SolvePhase::failed)
+        s.phase == SolvePhase::failed || other_links)
         s.solving = false; // nothing of the old radiosities can be used
+    if (s.solver() != solver_before) forget_other_solvers(s);
     if (stale == SolveFrom::transport || now.target_error != before.target_error || now.max_rays != before.max_rays) {
         s.passes.clear(); // the number of rays follows from the settings, never from what was there before
         s.pass_open = false;
-        s.solving = false;
+        if (s.solver() == SolverKind::gathering || s.solver() == SolverKind::hierarchical) s.solving = false;
     }
     switch (s.phase) {
     case SolvePhase::mesh:

@@ -120,7 +120,10 @@ MatrixSize matrix_size(const Mesh& mesh, int memory_mib) {
 
 void start_matrix(State& s, bool same_sources) {
     PatchSolve& p = s.patch_solve;
-    if (!made_with(p, s.scene->solve)) p = PatchSolve{};
+    if (!made_with(p, s.scene->solve)) {
+        p = PatchSolve{};
+        s.solving = false;
+    }
     s.status.matrix_patches = matrix_size(s.mesh, s.scene->solve.matrix_memory).patches;
     s.status.matrix_bytes = matrix_bytes(s.status.matrix_patches);
     if (!p.complete) {

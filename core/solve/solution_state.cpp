@@ -47,7 +47,7 @@ bool Solution::State::luminaire_is_lit(std::size_t luminaire) const {
     case SolverKind::reference:
         return true;
     case SolverKind::hierarchical:
-        return direct_light_apart();
+        return direct_light_apart() || !solving || shown_round == 0; // then it is in the leaves' irradiance
     }
     return true;
 }

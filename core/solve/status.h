@@ -19,8 +19,9 @@ struct ConvergencePoint {
 
 struct SolveStatus {
     SolveStage stage = SolveStage::idle;
-    double progress = 0;  // 0..1 of the stage
-    bool settled = false; // the target error is met, nothing is left to do
+    double progress = 0; // 0..1 of the stage
+    bool settled =
+        false; // nothing is left to do: what the solver can lower of its error is below the target, or at its limit
     bool paused = false;
     double unshot_share = 1; // as ConvergencePoint
     double estimated_error = 1;

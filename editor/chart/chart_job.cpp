@@ -1,7 +1,9 @@
 #include "editor/chart/chart_job.h"
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
+#include <thread>
 #include <utility>
 
 #ifdef __linux__
@@ -69,7 +71,8 @@ void ChartJob::run(std::shared_ptr<const Scene> scene, const ChartParams& params
     std::shared_ptr<const MethodChart> chart;
     std::string what;
     try {
-        tbb::task_arena arena;
+        // Half of the processors: the live solve and the window go on beside it.
+        tbb::task_arena arena(std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / 2));
         MethodChart made = arena.execute([&] { return run_chart(*scene, params, cancel_, progress); });
         if (made.points == 0 && !cancel_) what = "the scene has no lit surface to measure on";
         if (!made.runs.empty()) chart = std::make_shared<const MethodChart>(std::move(made));

@@ -1,7 +1,7 @@
 // A chart of methods in the making, on a thread of its own, for a window that goes on.
 //
 // Threads: every member may be called from any one thread at a time; none waits for the runs but the destructor and
-// start(), which wait for a step (<= 10 ms) of what is being cancelled.
+// start(), which wait for a step of what is being cancelled: some 10 ms, more where a matrix or a final gather begins.
 #pragma once
 
 #include <atomic>
