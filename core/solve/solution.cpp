@@ -6,8 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "core/scene/solver_words.h"
 #include "core/solve/choose_solver.h"
 #include "core/solve/solution_steps.h"
+#include "core/solve/traced_field.h"
 
 namespace lueur {
 
