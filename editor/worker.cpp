@@ -5,6 +5,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #ifdef __linux__
@@ -84,6 +85,7 @@ struct Worker::State {
     std::unique_ptr<Solution> solution;
     std::uint64_t document_revision = 0, snapshot_revision = 0;
     std::vector<ConvergencePoint> history;
+    std::optional<double> shown_error; // of the last field that was published since the last edit
     Clock::time_point last_publication{};
     double publication_seconds = 0; // that the last one took
     bool field_stale = true;        // the solution has moved on since
@@ -103,7 +105,7 @@ void Worker::State::note_history() {
         for (std::size_t k = 0; 2 * k < history.size(); ++k) history[k] = history[2 * k];
         history.resize(history.size() / 2);
     }
-    history.push_back({s.seconds, s.unshot_share, s.estimated_error});
+    history.push_back({s.seconds, s.unshot_share, shown_error.value_or(s.estimated_error)});
 }
 
 // Applies what was submitted since the last look; called and left with the lock held.
@@ -120,7 +122,10 @@ void Worker::State::take_requests(std::unique_lock<std::mutex>& lock) {
         solution->update(scene, solve_from(stage));
     if (from_black && solution) solution->update(solution->scene(), SolveFrom::black);
     const bool stale = from_black || solve_from(stage) != SolveFrom::nothing;
-    if (stale) history.clear();
+    if (stale) {
+        history.clear();
+        shown_error.reset();
+    }
     field_stale = field_stale || stale;
     lock.lock();
 }
@@ -140,7 +145,8 @@ void Worker::State::publish(bool is_paused) {
     next->status = solution->status();
     // The field knows its error better than the solver, which looks at it now and then.
     if (next->field) next->status.estimated_error = next->field->scene_error;
-    if (next->field && !history.empty()) history.back().error = next->field->scene_error;
+    if (next->field) shown_error = next->field->scene_error;
+    if (shown_error && !history.empty()) history.back().error = *shown_error;
     next->status.paused = is_paused;
     next->history = history;
     {
