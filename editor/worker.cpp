@@ -143,9 +143,9 @@ void Worker::State::publish(bool is_paused) {
     next->field = field_stale || !snapshot->field ? solution->field() : snapshot->field;
     field_stale = false;
     next->status = solution->status();
-    // The field knows its error better than the solver, which looks at it now and then.
-    if (next->field) next->status.estimated_error = next->field->scene_error;
-    if (next->field) shown_error = next->field->scene_error;
+    // A field that is lit at all knows its error better than the solver, which looks at it now and then.
+    if (next->field && next->field->scene_error > 0)
+        shown_error = next->status.estimated_error = next->field->scene_error;
     if (shown_error && !history.empty()) history.back().error = *shown_error;
     next->status.paused = is_paused;
     next->history = history;
