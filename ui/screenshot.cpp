@@ -7,33 +7,14 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
-#include "core/display/false_colour.h"
 #include "core/display/image_file.h"
-#include "core/display/legend.h"
 #include "core/view/picture.h"
 #include "core/view/spectral_picture.h"
-#include "editor/false_colour_range.h"
 #include "editor/picture_metadata.h"
+#include "editor/write_picture.h"
 
 namespace lueur {
 namespace {
-
-std::expected<void, std::string> write(const ScreenshotParams& params, const RadianceImage& image,
-                                       ImageMetadata metadata) {
-    if (is_radiance_image_name(params.output)) return write_radiance_image(params.output, image, metadata);
-    add_display_metadata(metadata, params.display, params.false_colour);
-    const bool deep = params.bits == 16 && !is_jpeg_name(params.output);
-    if (params.false_colour) {
-        const FalseColourSettings& scale = scale_of(params.display, params.quantity);
-        const auto write_one = [&](auto picture) {
-            draw_legend(picture, scale, unit_of(params.quantity));
-            return write_display_image(params.output, picture, metadata);
-        };
-        return deep ? write_one(deep_false_colour_image(image, scale)) : write_one(false_colour_image(image, scale));
-    }
-    return deep ? write_display_image(params.output, deep_display_image(image, params.display), metadata)
-                : write_display_image(params.output, display_image(image, params.display), metadata);
-}
 
 std::expected<std::filesystem::path, std::string> save(const ScreenshotParams& params,
                                                        const std::atomic<bool>& cancel) {
@@ -67,7 +48,8 @@ std::expected<std::filesystem::path, std::string> save(const ScreenshotParams& p
             return std::unexpected(written.error());
         return params.output;
     }
-    if (auto written = write(params, image, metadata); !written) return std::unexpected(written.error());
+    const PictureFile file{params.output, params.quantity, params.display, params.false_colour, params.bits};
+    if (auto written = write_picture(file, image, metadata); !written) return std::unexpected(written.error());
     return params.output;
 }
 

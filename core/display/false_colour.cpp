@@ -23,6 +23,16 @@ double round_up(double value) {
     return base * (digits <= 1 ? 1 : digits <= 2 ? 2 : digits <= 5 ? 5 : 10);
 }
 
+// Logarithmic, of a quantity whose scale is the same for all scenes.
+FalseColourSettings fixed_scale(double low, double high) {
+    FalseColourSettings scale;
+    scale.automatic = false;
+    scale.low = low;
+    scale.high = high;
+    scale.levels = {1, 2, 5, 10};
+    return scale;
+}
+
 double luma(const glm::vec3& encoded) {
     return glm::dot(glm::dvec3(encoded), glm::dvec3(0.2126, 0.7152, 0.0722));
 }
@@ -119,26 +129,12 @@ std::vector<double> isoline_levels(const FalseColourSettings& scale) {
 }
 
 const FalseColourSettings& colour_difference_scale() {
-    static const FalseColourSettings scale = [] {
-        FalseColourSettings s;
-        s.low = 0.2;
-        s.high = 20;
-        s.automatic = false;
-        s.levels = {1, 2, 5, 10};
-        return s;
-    }();
+    static const FalseColourSettings scale = fixed_scale(0.2, 20);
     return scale;
 }
 
 const FalseColourSettings& error_scale() {
-    static const FalseColourSettings scale = [] {
-        FalseColourSettings s;
-        s.low = 0.1;
-        s.high = 100;
-        s.automatic = false;
-        s.levels = {1, 2, 5, 10};
-        return s;
-    }();
+    static const FalseColourSettings scale = fixed_scale(0.1, 100);
     return scale;
 }
 

@@ -1,11 +1,11 @@
 // `lueur render`: solve a scene and save a picture of it.
 #include <cstdio>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/display/false_colour.h"
 #include "core/display/image_file.h"
-#include "core/display/legend.h"
 #include "core/scene/floor.h"
 #include "core/scene/scene_file.h"
 #include "core/solve/choose_solver.h"
@@ -16,6 +16,7 @@
 #include "editor/commands/output_file.h"
 #include "editor/false_colour_range.h"
 #include "editor/picture_metadata.h"
+#include "editor/write_picture.h"
 
 namespace lueur {
 
@@ -94,21 +95,6 @@ DisplaySettings display_used(const RadianceImage& image, const Scene& scene, con
     return display;
 }
 
-std::expected<void, std::string> write_picture(const RenderCommand& command, const RadianceImage& image,
-                                               const DisplaySettings& display, const ImageMetadata& metadata) {
-    const bool deep = command.bits == 16;
-    if (command.false_colour.on) {
-        const FalseColourSettings& scale = scale_of(display, command.quantity);
-        const auto write = [&](auto picture) {
-            draw_legend(picture, scale, unit_of(command.quantity));
-            return write_display_image(command.output, picture, metadata);
-        };
-        return deep ? write(deep_false_colour_image(image, scale)) : write(false_colour_image(image, scale));
-    }
-    return deep ? write_display_image(command.output, deep_display_image(image, display), metadata)
-                : write_display_image(command.output, display_image(image, display), metadata);
-}
-
 int render(const RenderCommand& command, BatchSession& session) {
     auto scene = session.load();
     const auto place = check_writable(command.output);
@@ -181,15 +167,12 @@ int render(const RenderCommand& command, BatchSession& session) {
                           : write_spectral_image(command.output, spectral, image, metadata);
             return;
         }
-        if (is_radiance_image_name(command.output)) {
-            written = write_radiance_image(command.output, image, metadata);
-            return;
-        }
-        const DisplaySettings display =
-            traced ? display_used(image, *scene, field_of_pixels(image), std::vector<float>(image.xyz.size(), 1.0f))
-                   : display_used(image, *scene, *solution.field(), vertex_areas(*solution.mesh()));
-        add_display_metadata(metadata, display, command.false_colour.on);
-        written = write_picture(command, image, display, metadata);
+        PictureFile file{command.output, command.quantity, {}, command.false_colour.on, command.bits};
+        if (!is_radiance_image_name(command.output))
+            file.display =
+                traced ? display_used(image, *scene, field_of_pixels(image), std::vector<float>(image.xyz.size(), 1.0f))
+                       : display_used(image, *scene, *solution.field(), vertex_areas(*solution.mesh()));
+        written = write_picture(file, image, std::move(metadata));
     });
     if (!written) return session.failed(written.error());
     session.bar().wipe();

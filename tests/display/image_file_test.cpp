@@ -7,7 +7,7 @@
 
 #include "core/display/image_file.h"
 #include "core/display/replace_file.h"
-#include "tests/display/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace lueur {
 namespace {
@@ -32,7 +32,7 @@ DisplayImage display_picture() {
     return {3, 2, {{255, 0, 0}, {0, 255, 0}, {0, 0, 255}, {255, 255, 255}, {0, 0, 0}, {10, 20, 30}}};
 }
 
-class ImageFile : public TemporaryFolder {
+class ImageFile : public test::FolderTest {
 protected:
     std::expected<void, std::string> write_any(const std::string& name, const ImageMetadata& metadata) const {
         const RadianceImage radiance{3, 2, std::vector<glm::vec3>(6, glm::vec3(0.4f))};

@@ -6,7 +6,7 @@
 
 #include "core/display/image_file.h"
 #include "tests/display/png_bytes.h"
-#include "tests/display/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace lueur {
 namespace {
@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-class Texture : public TemporaryFolder {
+class Texture : public test::FolderTest {
 protected:
     static void expect_texels(const std::expected<TextureImage, std::string>& texture, int width, int height,
                               const std::vector<Rgb>& encoded) { // sRGB codes 0..1

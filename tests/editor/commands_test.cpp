@@ -16,7 +16,7 @@
 #include "editor/chart/chart_table.h"
 #include "editor/commands/csv.h"
 #include "editor/commands/number_text.h"
-#include "tests/editor/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace lueur {
 namespace {
@@ -115,7 +115,7 @@ protected:
         }
         return rows;
     }
-    TemporaryFolder folder_;
+    test::TemporaryFolder folder_;
 };
 
 const std::string points = "x,y,z,nx,ny,nz\n"

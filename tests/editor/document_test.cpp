@@ -9,7 +9,7 @@
 
 #include "editor/asset_path.h"
 #include "tests/editor/small_scene.h"
-#include "tests/editor/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace lueur {
 namespace {
@@ -216,7 +216,7 @@ TEST(Document, UndoOfAllIsTheFirstSceneAndRedoOfAllTheLast) {
 }
 
 TEST(Document, AFailedOpenKeepsTheScene) {
-    const TemporaryFolder folder;
+    const test::TemporaryFolder folder;
     std::ofstream(folder.path() / "broken.toml") << "units = \"furlong\"\nnonsense = 3\n";
     std::ofstream(folder.path() / "empty.toml");
     Document document(small_scene(), "small.toml");
@@ -236,7 +236,7 @@ TEST(Document, AFailedOpenKeepsTheScene) {
 }
 
 TEST(Document, OpensAndSavesAndOpensTheSame) {
-    const TemporaryFolder folder;
+    const test::TemporaryFolder folder;
     Document document;
     std::vector<std::string> warnings;
     const auto opened = document.open(asset_path("furnace.toml"), warnings);
@@ -261,7 +261,7 @@ TEST(Document, OpensAndSavesAndOpensTheSame) {
 }
 
 TEST(Document, SavesAsTomlOnly) {
-    const TemporaryFolder folder;
+    const test::TemporaryFolder folder;
     Document document(small_scene());
     document.apply(SetDimmer{LuminaireIndex(0), 0.5});
     EXPECT_FALSE(document.save(folder.path() / "room.obj").has_value());

@@ -11,7 +11,7 @@
 #include "editor/commands/form_factor_cases.h"
 #include "editor/commands/form_factor_failures.h"
 #include "editor/commands/json_place.h"
-#include "tests/editor/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace lueur {
 namespace {
@@ -35,7 +35,7 @@ constexpr const char* good_cases = R"({"header": {"units": "any"}, "cases": [
 ]})";
 
 TEST(FormFactorCommand, GivesOneEntryACaseAndMethod) {
-    const TemporaryFolder folder;
+    const test::TemporaryFolder folder;
     const auto cases = folder.path() / "cases.json", output = folder.path() / "out.json";
     std::ofstream(cases) << good_cases;
     FormFactorsCommand command;
@@ -62,7 +62,7 @@ TEST(FormFactorCommand, GivesOneEntryACaseAndMethod) {
 }
 
 TEST(FormFactorCommand, OneSampleHasNoError) {
-    const TemporaryFolder folder;
+    const test::TemporaryFolder folder;
     const auto cases = folder.path() / "cases.json", output = folder.path() / "out.json";
     std::ofstream(cases) << good_cases;
     FormFactorsCommand command;
@@ -106,7 +106,7 @@ TEST(FormFactorCommand, TellsAllMistakesOfAFileWithTheirPlaces) {
 }
 
 TEST(FormFactorCommand, MistakesLeaveNothingBehind) {
-    const TemporaryFolder folder;
+    const test::TemporaryFolder folder;
     FormFactorsCommand command;
     command.cases = folder.path() / "bad.json";
     command.output = folder.path() / "out.json";

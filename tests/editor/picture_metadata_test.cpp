@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/editor/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace lueur {
 namespace {
@@ -39,7 +39,7 @@ Scene scene_of_odd_numbers() {
 }
 
 TEST(PictureMetadata, ThePictureCanBeMadeAgainFromItsFile) {
-    const TemporaryFolder folder;
+    const test::TemporaryFolder folder;
     const Scene scene = scene_of_odd_numbers();
     ImageMetadata metadata =
         picture_metadata(scene, folder.path() / "room.toml", scene.camera, SolveStatus{}, PictureQuantity::illuminance);

@@ -2,10 +2,7 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
-#include <unistd.h>
 #include <vector>
 
 #include <fmt/format.h>
@@ -13,31 +10,12 @@
 #include <gtest/gtest.h>
 
 #include "core/scene/scene_file.h"
+#include "tests/support/temporary_folder.h"
 
 namespace lueur {
 
-class SceneTest : public testing::Test {
+class SceneTest : public test::FolderTest {
 protected:
-    void SetUp() override {
-        const testing::TestInfo& info = *testing::UnitTest::GetInstance()->current_test_info();
-        std::string name = fmt::format("lueur_{}_{}_{}", getpid(), info.test_suite_name(), info.name());
-        for (char& letter : name)
-            if (letter == '/') letter = '_';
-        folder = std::filesystem::temp_directory_path() / name;
-        std::filesystem::create_directories(folder);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder); }
-
-    std::filesystem::path write(const std::string& name, const std::string& text) const {
-        std::filesystem::create_directories((folder / name).parent_path());
-        std::ofstream(folder / name, std::ios::binary) << text;
-        return folder / name;
-    }
-    static std::string read(const std::filesystem::path& file) {
-        std::ifstream stream(file, std::ios::binary);
-        return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-    }
-
     // The scene, or an empty one and a failure.
     LoadedScene load(const std::string& name) const {
         auto loaded = load_scene(folder / name);
@@ -59,8 +37,6 @@ protected:
         const auto written = write_display_image(folder / name, image, {});
         ASSERT_TRUE(written) << written.error();
     }
-
-    std::filesystem::path folder;
 };
 
 inline std::string lines(const std::vector<std::string>& messages) {

@@ -2,34 +2,12 @@
 #include <random>
 
 #include "scene_fixture.h"
+#include "tests/support/mutated.h"
 
 namespace lueur {
 namespace {
 
-std::string mutated(std::string text, std::mt19937& random) {
-    static const std::string likely = "0123456789-.e[]{}\"=,\n nif/\\#";
-    for (int changes = 1 + static_cast<int>(random() % 2); changes > 0 && !text.empty(); --changes) {
-        const std::size_t place = random() % text.size();
-        switch (random() % 5) {
-        case 0:
-            text[place] = static_cast<char>(random());
-            break;
-        case 1:
-            text.erase(place, 1 + random() % 20);
-            break;
-        case 2:
-            text.insert(place, 1, likely[random() % likely.size()]);
-            break;
-        case 3:
-            text[place] = likely[random() % likely.size()];
-            break;
-        case 4:
-            text.insert(place, text.substr(random() % text.size(), random() % 40));
-            break;
-        }
-    }
-    return text;
-}
+const std::string likely = "0123456789-.e[]{}\"=,\n nif/\\#";
 
 class Mutations : public SceneTest {
 protected:
@@ -37,7 +15,7 @@ protected:
         std::mt19937 random(20240501);
         int loaded = 0, refused = 0;
         for (int round = 0; round < 500; ++round) {
-            const auto file = write(name, mutated(text, random));
+            const auto file = write(name, test::mutated(text, likely, random));
             const auto result = load_scene(file);
             if (result) {
                 ++loaded;
@@ -76,7 +54,7 @@ TEST_F(Mutations, OfAnMtl) {
     const std::string text = "newmtl a\nKd 0.5 0.5 0.5\nKe 1 1 1\nmap_Kd -s 1 1 1 a b.png\nd 0.5\nnewmtl b\nKd 0.25\n";
     std::mt19937 random(99);
     for (int round = 0; round < 500; ++round) {
-        write("s.mtl", mutated(text, random));
+        write("s.mtl", test::mutated(text, likely, random));
         const auto result = load_scene(folder / "s.obj");
         if (result) continue;
         for (const std::string& error : result.error()) EXPECT_TRUE(error.starts_with(folder.string())) << error;

@@ -6,6 +6,8 @@
 
 #include "core/spectrum/read_spectrum.h"
 
+#include "tests/support/temporary_folder.h"
+
 namespace lueur {
 namespace {
 
@@ -15,28 +17,14 @@ using ::testing::HasSubstr;
 using ::testing::SizeIs;
 using ::testing::StartsWith;
 
-class SpectrumCsv : public ::testing::Test {
+class SpectrumCsv : public test::FolderTest {
 protected:
-    void SetUp() override {
-        folder = std::filesystem::path(::testing::TempDir()) /
-                 (std::string("lueur_csv_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
-        std::filesystem::remove_all(folder);
-        std::filesystem::create_directories(folder);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder); }
-
-    std::filesystem::path write(const std::string& text) const {
-        const auto file = folder / "lamp.csv";
-        std::ofstream(file, std::ios::binary) << text;
-        return file;
-    }
+    std::filesystem::path write(const std::string& text) const { return FolderTest::write("lamp.csv", text); }
     std::vector<std::string> errors_of(const std::string& text, const std::string& column = "") const {
         const auto read = read_spectrum_csv(write(text), column);
         return read ? std::vector<std::string>{} : read.error();
     }
     std::string at(const std::string& place) const { return (folder / "lamp.csv").string() + ":" + place + ": "; }
-
-    std::filesystem::path folder;
 };
 
 TEST_F(SpectrumCsv, ReadsANamedColumnOrTheFirst) {

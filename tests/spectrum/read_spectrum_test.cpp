@@ -8,7 +8,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <random>
-#include <unistd.h>
+
+#include "tests/support/mutated.h"
+#include "tests/support/temporary_folder.h"
 
 namespace lueur {
 namespace {
@@ -16,20 +18,8 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-class SpectrumFiles : public ::testing::Test {
+class SpectrumFiles : public test::FolderTest {
 protected:
-    void SetUp() override {
-        folder =
-            std::filesystem::temp_directory_path() /
-            fmt::format("lueur_spd_{}_{}", getpid(), ::testing::UnitTest::GetInstance()->current_test_info()->name());
-        std::filesystem::create_directories(folder);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder); }
-
-    std::filesystem::path write(const std::string& name, const std::string& text) const {
-        std::ofstream(folder / name, std::ios::binary) << text;
-        return folder / name;
-    }
     Spectrum read(const std::string& name, const std::string& text, const std::string& column = "") const {
         auto spectrum = read_spectrum(write(name, text), column);
         if (spectrum) return std::move(*spectrum);
@@ -40,8 +30,6 @@ protected:
         const auto spectrum = read_spectrum(write(name, text), column);
         return spectrum ? std::string() : fmt::format("{}", fmt::join(spectrum.error(), "\n"));
     }
-
-    std::filesystem::path folder;
 };
 
 // As colord and Argyll's spotread write it, with the numbers shortened.
@@ -167,27 +155,7 @@ TEST_F(SpectrumFiles, DamagedFilesAreReadOrRefused) {
     for (const auto& [name, good] : files) {
         int accepted = 0, refused = 0;
         for (int round = 0; round < 1500; ++round) {
-            std::string text = good;
-            for (int changes = 1 + static_cast<int>(random() % 2); changes > 0 && !text.empty(); --changes) {
-                const std::size_t place = random() % text.size();
-                switch (random() % 5) {
-                case 0:
-                    text[place] = static_cast<char>(random());
-                    break;
-                case 1:
-                    text.erase(place, 1 + random() % 20);
-                    break;
-                case 2:
-                    text.insert(place, 1, likely[random() % likely.size()]);
-                    break;
-                case 3:
-                    text[place] = likely[random() % likely.size()];
-                    break;
-                case 4:
-                    text.insert(place, text.substr(random() % text.size(), random() % 40));
-                    break;
-                }
-            }
+            const std::string text = test::mutated(good, likely, random);
             const auto file = write(name, text);
             const auto result = read_spectrum(file, random() % 2 ? "" : "red");
             if (result) {

@@ -11,7 +11,7 @@
 #include "core/solve/path_tracer.h"
 #include "core/solve/solution_state.h"
 #include "core/transport/sampling.h"
-#include "tests/support/surface_points.h"
+#include "core/view/surface_points.h"
 
 namespace lueur::test {
 

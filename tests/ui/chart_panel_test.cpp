@@ -1,13 +1,11 @@
 // The chart panel in an ImGui context without a window: buttons ask, a click on a point takes its method.
 #include <cmath>
-#include <fstream>
 
 #include <gtest/gtest.h>
 #include <imgui.h>
-#include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include "tests/support/scenes.h"
+#include "tests/ui/panel_fixture.h"
 #include "ui/panels.h"
 
 namespace lueur {
@@ -28,20 +26,10 @@ ChartRun run_of(const ChartMethod& method, double seconds, double error) {
     return run;
 }
 
-class ChartPanelTest : public testing::Test {
+class ChartPanelTest : public test::PanelFixture {
 protected:
     void SetUp() override {
-        layout_file_ = std::filesystem::temp_directory_path() / ("lueur-chart-" + std::to_string(getpid()) + ".json");
-        setenv("LUEUR_UI_LAYOUT", layout_file_.c_str(), 1);
-        ImGui::CreateContext();
-        auto& io = ImGui::GetIO();
-        io.IniFilename = nullptr;
-        io.DisplaySize = {1280, 800};
-        io.DeltaTime = 1.0f / 60;
-        apply_theme(1);
-        std::string complaint;
-        state_ = std::make_unique<UiState>();
-        state_->fonts = load_fonts(1, complaint);
+        PanelFixture::SetUp();
         document_ = Document(test::small_room());
         MethodChart chart;
         chart.points = 100;
@@ -50,26 +38,10 @@ protected:
         chart.runs.push_back({hemicubes, 1, {}, RunEnd::refused, "too large", 0.5, 0, 0, {}});
         state_->chart.chart = std::make_shared<const MethodChart>(std::move(chart));
     }
-    void TearDown() override {
-        state_.reset();
-        ImGui::DestroyContext();
-        unsetenv("LUEUR_UI_LAYOUT");
-        std::filesystem::remove(layout_file_);
-    }
     std::optional<Edit> frame(float height = 300) {
-        ImGui::NewFrame();
-        ImGui::SetNextWindowPos({0, 0});
-        ImGui::SetNextWindowSize({348, height});
-        ImGui::Begin("panel", nullptr, ImGuiWindowFlags_NoDecoration);
-        auto edit = chart_panel(document_, snapshot_, *state_);
-        ImGui::End();
-        ImGui::Render();
-        state_->layout_log.end_frame();
+        std::optional<Edit> edit;
+        draw_frame([&] { edit = chart_panel(document_, snapshot_, *state_); }, height);
         return edit;
-    }
-    std::array<float, 4> widget(const std::string& name) {
-        std::ifstream stream(layout_file_);
-        return nlohmann::json::parse(stream).at("widgets").at(name).get<std::array<float, 4>>();
     }
     std::optional<Edit> click(float x, float y) {
         auto& io = ImGui::GetIO();
@@ -88,16 +60,13 @@ protected:
     }
     ImVec2 place(double seconds, double error) {
         frame();
-        const auto area = widget("chart");
+        const auto area = box_of("chart");
         const double x = std::log(seconds / 0.008) / std::log(1.3 / 0.008),
                      y = std::log(error / 0.007) / std::log(1.4 / 0.007);
         return {area[0] + static_cast<float>(x) * (area[2] - area[0]),
                 area[3] - static_cast<float>(y) * (area[3] - area[1])};
     }
 
-    std::filesystem::path layout_file_;
-    std::unique_ptr<UiState> state_;
-    Document document_;
     Snapshot snapshot_;
 };
 
@@ -116,21 +85,21 @@ TEST_F(ChartPanelTest, AClickOnAPointTakesItsMethod) {
     EXPECT_EQ(std::get<SetSolve>(*hierarchical).solve.oracle, RefinementOracle::flux);
     at = place(0.012, 0.02);
     EXPECT_FALSE(click(at.x, at.y)) << "nothing is there";
-    const auto area = widget("chart");
+    const auto area = box_of("chart");
     at = place(0.5, 0.1);
     EXPECT_TRUE(click(at.x, area[1] + 7)) << "the cross of the run that failed";
 }
 
 TEST_F(ChartPanelTest, ButtonsAsk) {
     frame();
-    auto box = widget("chart:compute");
+    auto box = box_of("chart:compute");
     click(box[0] + 5, box[1] + 5);
     EXPECT_EQ(state_->chart.request, ChartRequest::compute);
     state_->chart.request = ChartRequest::none;
     state_->chart.running = true;
     state_->chart.what = "jacobi, hemicube";
     frame();
-    box = widget("chart:cancel");
+    box = box_of("chart:cancel");
     click(box[0] + 5, box[1] + 5);
     EXPECT_EQ(state_->chart.request, ChartRequest::cancel);
 }

@@ -46,10 +46,10 @@ protected:
     }
 
     template <typename Draw>
-    void draw_frame(const Draw& draw) { // draw() in a box as wide as the window's column
+    void draw_frame(const Draw& draw, float height = 780) { // in a box as wide as the window's column
         ImGui::NewFrame();
         ImGui::SetNextWindowPos({0, 0});
-        ImGui::SetNextWindowSize({348, 780});
+        ImGui::SetNextWindowSize({348, height});
         ImGui::Begin("panel", nullptr, ImGuiWindowFlags_NoDecoration);
         draw();
         ImGui::End();

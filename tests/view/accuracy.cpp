@@ -12,9 +12,9 @@
 #include "core/view/picture.h"
 #include "core/view/radiance_channels.h"
 #include "core/view/spectral_picture.h"
+#include "core/view/surface_points.h"
 #include "tests/support/scenes.h"
 #include "tests/support/source_folder.h"
-#include "tests/support/surface_points.h"
 
 using namespace lueur;
 
@@ -55,7 +55,7 @@ TEST(Accuracy, CornellBoxAgainstTracedPaths) {
     Solution solution(std::make_shared<const Scene>(loaded->scene));
     test::settle(solution);
     ASSERT_TRUE(solution.status().settled);
-    const auto points = test::surface_points(solution, 1000, 1);
+    const auto points = surface_points(solution, 1000, 1);
     // 4,096 paths leave about 1 % noise at a point, which counts against us.
     const auto truth = measure_points(solution, points, {MeasureAt::reference, 4096, 9}, never);
     const Errors field = relative_errors(measure_points(solution, points, {MeasureAt::field, 0, 1}, never), truth);

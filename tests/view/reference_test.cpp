@@ -9,8 +9,8 @@
 #include "core/view/measure.h"
 #include "core/view/picture.h"
 #include "core/view/reference_picture.h"
+#include "core/view/surface_points.h"
 #include "tests/support/scenes.h"
-#include "tests/support/surface_points.h"
 
 using namespace lueur;
 
@@ -158,7 +158,7 @@ TEST(Reference, FluxBalance) {
     Scene scene = test::small_room();
     for (Material& material : scene.materials) material.reflectance = 0.6;
     const Solution solution = with_world(scene);
-    const auto points = test::surface_points(solution, 600, 3);
+    const auto points = surface_points(solution, 600, 3);
     double area = 0;
     for (const float a : solution.state().mesh.coarse_area) area += a;
     double sum = 0, square = 0;
@@ -189,7 +189,7 @@ TEST(Reference, StandardErrorIsTheSpread) {
 // With and without radiosity: gathering with many rays and paths agree within what they state.
 TEST(Reference, AgreesWithGathering) {
     const Solution solution = test::solved(test::small_room());
-    const auto points = test::surface_points(solution, 60, 8);
+    const auto points = surface_points(solution, 60, 8);
     const auto traced = measure_points(solution, points, {MeasureAt::reference, 4096, 5}, never),
                gathered = measure_points(solution, points, {MeasureAt::gather, 2048, 6}, never);
     double bias = 0, weight = 0;
