@@ -21,7 +21,7 @@ std::string name_of(const std::vector<Entry>& entries, Index index) {
 }
 
 template <typename Index, typename Entry>
-std::optional<std::string> missing(const char* kind, const std::vector<Entry>& entries, Index index) {
+std::optional<std::string> no_such(const char* kind, const std::vector<Entry>& entries, Index index) {
     if (at(index) < entries.size()) return {};
     return fmt::format("there is no {} {}; the scene has {}", kind, at(index), entries.size());
 }
@@ -65,14 +65,14 @@ std::optional<std::string> change(const Edit& edit, Scene& scene) {
     return std::visit(
         Overload{
             [&](const SetReflectance& e) -> std::optional<std::string> {
-                if (auto reason = missing("material", scene.materials, e.material)) return reason;
+                if (auto reason = no_such("material", scene.materials, e.material)) return reason;
                 auto& material = scene.materials[at(e.material)];
                 material.reflectance = e.reflectance;
                 material.texture.reset(); // paint covers the picture: a texture brings its own mean reflectance
                 return {};
             },
             [&](const SetTexture& e) -> std::optional<std::string> {
-                if (auto reason = missing("material", scene.materials, e.material)) return reason;
+                if (auto reason = no_such("material", scene.materials, e.material)) return reason;
                 if (!e.texture) {
                     scene.materials[at(e.material)].texture.reset();
                     return {};
@@ -84,14 +84,14 @@ std::optional<std::string> change(const Edit& edit, Scene& scene) {
                 return {};
             },
             [&](const SetTwoSided& e) -> std::optional<std::string> {
-                if (auto reason = missing("material", scene.materials, e.material)) return reason;
+                if (auto reason = no_such("material", scene.materials, e.material)) return reason;
                 scene.materials[at(e.material)].two_sided = e.two_sided;
                 return {};
             },
             [&](const GiveOwnMaterial& e) -> std::optional<std::string> {
-                if (auto reason = missing("object", scene.objects, e.object)) return reason;
+                if (auto reason = no_such("object", scene.objects, e.object)) return reason;
                 auto& object = scene.objects[at(e.object)];
-                if (auto reason = missing("material", scene.materials, object.material)) return reason;
+                if (auto reason = no_such("material", scene.materials, object.material)) return reason;
                 const bool shared = std::ranges::count(scene.objects, object.material, &Object::material) > 1;
                 if (!shared) return {};
                 Material own = scene.materials[at(object.material)];
@@ -104,8 +104,8 @@ std::optional<std::string> change(const Edit& edit, Scene& scene) {
                 return {};
             },
             [&](const AssignMaterial& e) -> std::optional<std::string> {
-                if (auto reason = missing("object", scene.objects, e.object)) return reason;
-                if (auto reason = missing("material", scene.materials, e.material)) return reason;
+                if (auto reason = no_such("object", scene.objects, e.object)) return reason;
+                if (auto reason = no_such("material", scene.materials, e.material)) return reason;
                 const MaterialIndex before = std::exchange(scene.objects[at(e.object)].material, e.material);
                 if (before == e.material) return {};
                 if (at(before) < scene.materials.size()) take_mean_again(scene, before);
@@ -113,23 +113,23 @@ std::optional<std::string> change(const Edit& edit, Scene& scene) {
                 return {};
             },
             [&](const SetDimmer& e) -> std::optional<std::string> {
-                if (auto reason = missing("luminaire", scene.luminaires, e.luminaire)) return reason;
+                if (auto reason = no_such("luminaire", scene.luminaires, e.luminaire)) return reason;
                 scene.luminaires[at(e.luminaire)].dimmer = e.dimmer;
                 return {};
             },
             [&](const SetPower& e) -> std::optional<std::string> {
-                if (auto reason = missing("luminaire", scene.luminaires, e.luminaire)) return reason;
+                if (auto reason = no_such("luminaire", scene.luminaires, e.luminaire)) return reason;
                 scene.luminaires[at(e.luminaire)].unit = e.unit;
                 scene.luminaires[at(e.luminaire)].power = e.power;
                 return {};
             },
             [&](const SetEmissionSpectrum& e) -> std::optional<std::string> {
-                if (auto reason = missing("luminaire", scene.luminaires, e.luminaire)) return reason;
+                if (auto reason = no_such("luminaire", scene.luminaires, e.luminaire)) return reason;
                 scene.luminaires[at(e.luminaire)].spectrum = e.spectrum;
                 return {};
             },
             [&](const SetEmitSide& e) -> std::optional<std::string> {
-                if (auto reason = missing("luminaire", scene.luminaires, e.luminaire)) return reason;
+                if (auto reason = no_such("luminaire", scene.luminaires, e.luminaire)) return reason;
                 scene.luminaires[at(e.luminaire)].side = e.side;
                 return {};
             },

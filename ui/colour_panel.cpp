@@ -101,7 +101,7 @@ void cell(const std::string& text) {
     ImGui::TextUnformatted(text.c_str());
 }
 
-void table(const std::vector<Column>& columns, UiState& state) {
+void readings_table(const std::vector<Column>& columns, UiState& state) {
     if (!ImGui::BeginTable("##quality", 1 + static_cast<int>(columns.size()), ImGuiTableFlags_SizingStretchSame))
         return;
     ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, 88 * state.scale);
@@ -255,7 +255,7 @@ void colour_panel(const Document& document, UiState& state) {
     columns.push_back(here);
     ImGui::PushFont(state.fonts.small);
     ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {4 * state.scale, 1.5f * state.scale});
-    table(columns, state);
+    readings_table(columns, state);
     ImGui::PopStyleVar();
     if (!state.hovered) ImGui::TextColored(colours::dim, "Move the mouse over the picture to read the light there.");
     ImGui::PopFont();

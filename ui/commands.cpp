@@ -7,7 +7,7 @@
 namespace lueur {
 namespace {
 
-constexpr std::array<CommandInfo, 30> table{{
+constexpr std::array<CommandInfo, 30> command_table{{
     {Command::open, "Open...", "Ctrl+O"},
     {Command::save, "Save", "Ctrl+S"},
     {Command::save_as, "Save as...", "Ctrl+Shift+S"},
@@ -43,13 +43,13 @@ constexpr std::array<CommandInfo, 30> table{{
 } // namespace
 
 std::span<const CommandInfo> all_commands() {
-    return table;
+    return command_table;
 }
 
 const CommandInfo& info(Command command) {
-    for (const auto& entry : table)
+    for (const auto& entry : command_table)
         if (entry.command == command) return entry;
-    return table.back();
+    return command_table.back();
 }
 
 std::optional<Command> command_for_key(int key, int modifiers) {

@@ -14,7 +14,7 @@ namespace lueur {
 namespace {
 
 using Sums = std::array<double, max_channels>;
-constexpr std::uint32_t grain = 256;
+constexpr std::uint32_t vertices_a_task = 256;
 
 // Eight channels as one register (two, without 256-bit vectors). Written out, for the compiler would sum channel by
 // channel in memory.
@@ -66,7 +66,7 @@ LUEUR_BEST_VECTORS void apply_receivers(std::span<const GatherPass> passes, RayE
 template <typename F>
 Sums weighted_sums(std::uint32_t n, int channels, const std::vector<float>& weight, const F& f) {
     return tbb::parallel_deterministic_reduce(
-        tbb::blocked_range<std::uint32_t>(0, n, 4 * grain), Sums{},
+        tbb::blocked_range<std::uint32_t>(0, n, 4 * vertices_a_task), Sums{},
         [&](const tbb::blocked_range<std::uint32_t>& range, Sums sums) {
             for (std::uint32_t i = range.begin(); i < range.end(); ++i)
                 for (int c = 0; c < channels; ++c) sums[c] += double(weight[i]) * f(i, c);
@@ -80,7 +80,7 @@ Sums weighted_sums(std::uint32_t n, int channels, const std::vector<float>& weig
 
 template <typename F>
 void for_each_vertex(std::uint32_t n, const F& f) {
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, n, grain),
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, n, vertices_a_task),
                       [&](const tbb::blocked_range<std::uint32_t>& range) {
                           for (std::uint32_t i = range.begin(); i < range.end(); ++i) f(i);
                       });

@@ -14,7 +14,7 @@ namespace {
 constexpr double settled_share = 1e-3;   // of what the residual may still come to, 1 / (1 - rho) of it
 constexpr double least_residual = 1e-6;  // single precision has no more
 constexpr double coarse_residual = 0.02; // before the links are refined further
-constexpr std::uint32_t most_sweeps = 3000;
+constexpr std::uint32_t most_round_sweeps = 3000;
 constexpr std::uint32_t most_rounds = 20;
 constexpr std::uint32_t most_growing = 20; // sweeps in a row whose residual grows: the rows have too much energy
 
@@ -202,7 +202,7 @@ void Hierarchy::sweep() {
     ++sweeps_of_round_;
     growing_ = residual_ > last_residual_ ? growing_ + 1 : 0;
     last_residual_ = residual_;
-    if (!std::isfinite(residual_) || growing_ > most_growing || sweeps_of_round_ > most_sweeps) {
+    if (!std::isfinite(residual_) || growing_ > most_growing || sweeps_of_round_ > most_round_sweeps) {
         failure_ = "hierarchical radiosity does not converge on this scene: its rows reflect as much as they receive";
         phase_ = Phase::failed;
         return;

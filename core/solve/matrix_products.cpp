@@ -11,7 +11,7 @@ namespace {
 
 // Four channels as one register; written out, for the compiler would sum channel by channel in memory. Copied in and
 // out, for the numbers in memory are aligned as doubles only.
-using Lanes [[gnu::vector_size(32)]] = double;
+using FourDoubles [[gnu::vector_size(32)]] = double;
 
 // out[k] += sum over [first, last) of F_(i+k)j x_j, eight channels from `channel`.
 template <int Rows>
@@ -19,12 +19,12 @@ template <int Rows>
                                                 std::uint32_t last, const PatchField& x, int channel,
                                                 double* const (&out)[Rows]) {
     const float* row[Rows];
-    Lanes low[Rows] = {}, high[Rows] = {};
+    FourDoubles low[Rows] = {}, high[Rows] = {};
     for (int k = 0; k < Rows; ++k) row[k] = f.row(i + static_cast<std::uint32_t>(k));
     const std::size_t stride = static_cast<std::size_t>(x.stride);
     const double* values = x.values.data() + channel;
     for (std::uint32_t j = first; j < last; ++j) {
-        Lanes a, b;
+        FourDoubles a, b;
         std::memcpy(&a, values + j * stride, sizeof a);
         std::memcpy(&b, values + j * stride + 4, sizeof b);
         for (int k = 0; k < Rows; ++k) {

@@ -18,7 +18,7 @@ namespace lueur {
 namespace {
 
 using Range = tbb::blocked_range<std::uint32_t>;
-constexpr std::uint32_t grain = 256;
+constexpr std::uint32_t patches_a_task = 256;
 constexpr std::uint32_t shadow_rays = 3; // a receiver and shot
 constexpr double most_sent_on = 0.98;    // of a shot's flux
 
@@ -118,7 +118,7 @@ void Shooting::deliver(const std::vector<float>& form_factor, const float* radio
     // The flux that the patches would send on. Form factors from a vertex sum to 1, but the mean over the vertices of
     // elements that touch the shooter is too much.
     const double sent_on = tbb::parallel_deterministic_reduce(
-        Range(0, unshot_.count, 4 * grain), 0.0,
+        Range(0, unshot_.count, 4 * patches_a_task), 0.0,
         [&](const Range& range, double sum) {
             for (std::uint32_t p = range.begin(); p < range.end(); ++p) {
                 float mean = 0, reflected = 0;
@@ -133,7 +133,7 @@ void Shooting::deliver(const std::vector<float>& form_factor, const float* radio
     const double limit = most_sent_on * shot_flux;
     const float scale = sent_on > limit ? static_cast<float>(limit / sent_on) : 1.0f;
     ChannelField irradiance(mesh_->coarse_vertex_count, channels);
-    tbb::parallel_for(Range(0, irradiance.count, grain), [&](const Range& range) {
+    tbb::parallel_for(Range(0, irradiance.count, patches_a_task), [&](const Range& range) {
         for (std::uint32_t i = range.begin(); i < range.end(); ++i) {
             const float f = form_factor[i] * scale;
             if (f <= 0) continue;

@@ -10,9 +10,9 @@ namespace lueur {
 
 namespace {
 
-constexpr double residual_target = 2e-4;   // |r| / |b|, worst channel
-constexpr std::uint32_t most_sweeps = 400; // a system that needs more does not converge
-constexpr double ray_share = 0.7;          // of the target error that the rays may take; interpolation has the rest
+constexpr double residual_target = 2e-4;             // |r| / |b|, worst channel
+constexpr std::uint32_t most_gathering_sweeps = 400; // a system that needs more does not converge
+constexpr double ray_share = 0.7; // of the target error that the rays may take; interpolation has the rest
 
 using State = Solution::State;
 
@@ -216,7 +216,7 @@ void step_gathering(State& s, const std::atomic<bool>& cancel) {
         if (!s.system.sweep(s.passes, cancel)) return;
         ++s.status.sweeps;
         refresh_indirect(s);
-        if (s.system.diverged() || s.status.sweeps > most_sweeps)
+        if (s.system.diverged() || s.status.sweeps > most_gathering_sweeps)
             return fail(s, "the solver does not converge on this scene; a reflectance is too close to 1");
     }
     s.status.unshot_share = unshot_flux_share(s);

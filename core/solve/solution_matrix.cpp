@@ -21,7 +21,7 @@ namespace {
 
 constexpr double unshot_of_sweeps = 0.05; // of the target error that flux left unshot may take
 constexpr double unshot_of_shots = 0.2;
-constexpr std::uint32_t most_sweeps = 20000;
+constexpr std::uint32_t most_matrix_sweeps = 20000;
 constexpr std::uint32_t most_shots = 500; // a patch
 constexpr std::size_t rate_sweeps = 16;   // over which the rate of convergence is taken
 
@@ -82,12 +82,13 @@ std::string hopeless(const State& s, double enough) {
     const double rate = std::pow(u.back() / u[u.size() - 1 - rate_sweeps], 1.0 / rate_sweeps);
     if (rate < 1) {
         const double left = std::log(enough / u.back()) / std::log(rate);
-        if (s.status.sweeps + left <= most_sweeps) return {};
+        if (s.status.sweeps + left <= most_matrix_sweeps) return {};
         return fmt::format("{} would need about {:.2g} sweeps, {} are the limit: a reflectance is too close to 1",
-                           to_string(s.solver()), s.status.sweeps + left, most_sweeps);
+                           to_string(s.solver()), s.status.sweeps + left, most_matrix_sweeps);
     }
-    if (s.status.sweeps < most_sweeps) return {};
-    return fmt::format("{} does not converge on this scene within {} sweeps", to_string(s.solver()), most_sweeps);
+    if (s.status.sweeps < most_matrix_sweeps) return {};
+    return fmt::format("{} does not converge on this scene within {} sweeps", to_string(s.solver()),
+                       most_matrix_sweeps);
 }
 
 void take_shots(State& s, const std::atomic<bool>& cancel, bool one_shot, double enough) {

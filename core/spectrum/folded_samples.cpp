@@ -22,11 +22,11 @@ using Eigen::VectorXd;
 
 constexpr int grid_first = 380, grid_last = 780, grid_step = 5;
 constexpr int candidates = (grid_last - grid_first) / grid_step + 1;
-constexpr std::size_t most_products = 400;
+constexpr std::size_t most_fitted_products = 400;
 constexpr double edge_weight = 0.8;             // of the smooth edges together, among the paints' own products
 constexpr double cie_threshold = 216.0 / 24389; // below it L* is linear (CIE 15:2018)
 constexpr int exchange_reach = 4;               // candidates either side
-constexpr int most_rounds = 6;
+constexpr int most_fit_rounds = 6;
 constexpr double even_first = 400, even_last = 690; // nm: where nearly all of XYZ is
 constexpr int most_even = 32;                       // samples that are then still apart from each other
 constexpr int lawson_rounds = 12, polish_rounds = 4;
@@ -186,7 +186,7 @@ FoldedFit::FoldedFit(const SpectralContent& content)
     for (const Spectrum& reflectance : with_interreflection(content.reflectances))
         reflectances.push_back(on_visible_grid(reflectance, Outside::constant));
     const std::vector<ReflectanceProduct> products =
-        reflectance_products(static_cast<int>(reflectances.size()), most_products);
+        reflectance_products(static_cast<int>(reflectances.size()), most_fitted_products);
     static const std::vector<VisibleGrid> edges = edge_family();
 
     const Index rows = static_cast<Index>(products.size() + edges.size());
@@ -270,7 +270,7 @@ std::vector<double> FoldedFit::choose(int count) const {
     };
     // Each in turn is moved within its reach while that helps.
     const auto improve = [&](std::vector<int>& set, double lowest) {
-        for (int round = 0; round < most_rounds; ++round) {
+        for (int round = 0; round < most_fit_rounds; ++round) {
             const double before = lowest;
             for (std::size_t k = 0; k < set.size(); ++k) {
                 const int from = set[k];

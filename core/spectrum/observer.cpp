@@ -13,17 +13,17 @@ namespace lueur {
 
 namespace {
 
-using Table = std::array<std::array<double, 3>, observer_last_nm - observer_first_nm + 1>;
+using ObserverTable = std::array<std::array<double, 3>, observer_last_nm - observer_first_nm + 1>;
 
-constexpr Table cie1931_table{{
+constexpr ObserverTable cie1931_table{{
 #include "core/spectrum/observer_table.inc"
 }};
 
-constexpr Table cie1964_table{{
+constexpr ObserverTable cie1964_table{{
 #include "core/spectrum/observer_1964_table.inc"
 }};
 
-const Table& table_of(Observer observer) {
+const ObserverTable& table_of(Observer observer) {
     switch (observer) {
     case Observer::cie1931_2degree:
         return cie1931_table;

@@ -22,11 +22,10 @@ double nm_from_scaled(double x) {
 }
 
 // A weight function summed at whole nanometres, 380..780 nm: the range that gives Meyer's four wavelengths.
-constexpr int first_nm = 380, last_nm = 780;
 template <typename Function>
 VectorXd weight_function(Function f) {
     VectorXd weight = VectorXd::Zero(visible_count);
-    for (int nm = first_nm; nm <= last_nm; ++nm) weight[nm - observer_first_nm] = f(observer_xyz(nm));
+    for (int nm = visible_first_nm; nm <= visible_last_nm; ++nm) weight[nm - observer_first_nm] = f(observer_xyz(nm));
     return weight;
 }
 
@@ -99,8 +98,8 @@ VectorXd interpolatory_weights(const std::vector<double>& nm, const VectorXd& we
 std::vector<double> cell_widths(const std::vector<double>& nm) {
     std::vector<double> width;
     for (std::size_t k = 0; k < nm.size(); ++k) {
-        const double from = k == 0 ? first_nm : 0.5 * (nm[k - 1] + nm[k]);
-        const double to = k + 1 == nm.size() ? last_nm : 0.5 * (nm[k] + nm[k + 1]);
+        const double from = k == 0 ? visible_first_nm : 0.5 * (nm[k - 1] + nm[k]);
+        const double to = k + 1 == nm.size() ? visible_last_nm : 0.5 * (nm[k] + nm[k + 1]);
         width.push_back(to - from);
     }
     return width;

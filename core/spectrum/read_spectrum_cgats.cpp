@@ -35,7 +35,7 @@ std::vector<Cell> words(std::string_view text) {
 }
 
 // The first table of the file.
-struct Table {
+struct CgatsTable {
     std::map<std::string_view, Cell> keywords; // to the word after them on their line
     std::vector<Cell> fields, data;
     Cell data_begin;
@@ -43,8 +43,8 @@ struct Table {
     bool matching = false; // a .cmf
 };
 
-Table read_table(const std::vector<Cell>& cells) {
-    Table table;
+CgatsTable read_table(const std::vector<Cell>& cells) {
+    CgatsTable table;
     table.matching = !cells.empty() && cells.front().text == "CMF";
     for (std::size_t i = 0; i < cells.size(); ++i) {
         const std::string_view word = cells[i].text;
@@ -64,7 +64,7 @@ Table read_table(const std::vector<Cell>& cells) {
     return table;
 }
 
-std::optional<double> keyword_number(SpectrumText& text, const Table& table, std::string_view name) {
+std::optional<double> keyword_number(SpectrumText& text, const CgatsTable& table, std::string_view name) {
     const auto found = table.keywords.find(name);
     if (found == table.keywords.end()) {
         text.error(fmt::format("there is no {}; allowed: {} and a number before BEGIN_DATA", name, name));
@@ -82,7 +82,7 @@ struct Layout {
     std::size_t sets = 0;
 };
 
-std::optional<Layout> layout_of(SpectrumText& text, const Table& table) {
+std::optional<Layout> layout_of(SpectrumText& text, const CgatsTable& table) {
     if (!table.has_data) {
         text.error("there is no BEGIN_DATA; allowed: values between BEGIN_DATA and END_DATA");
         return {};
@@ -146,7 +146,7 @@ std::optional<Layout> layout_of(SpectrumText& text, const Table& table) {
     return layout;
 }
 
-std::vector<std::string> set_names(const Table& table, const Layout& layout) {
+std::vector<std::string> set_names(const CgatsTable& table, const Layout& layout) {
     std::vector<std::string> names;
     for (std::size_t set = 0; set < layout.sets; ++set)
         if (!layout.names.empty())
@@ -158,7 +158,7 @@ std::vector<std::string> set_names(const Table& table, const Layout& layout) {
     return names;
 }
 
-std::optional<std::size_t> find_set(SpectrumText& text, const Table& table, const Layout& layout,
+std::optional<std::size_t> find_set(SpectrumText& text, const CgatsTable& table, const Layout& layout,
                                     const std::string& column) {
     if (column.empty()) return 0;
     for (std::size_t set = 0; set < layout.sets; ++set)
@@ -183,7 +183,7 @@ bool is_cgats(std::string_view text) {
 }
 
 std::expected<Spectrum, SpectrumErrors> read_cgats(SpectrumText text, const std::string& column) {
-    const Table table = read_table(words(text.text));
+    const CgatsTable table = read_table(words(text.text));
     Spectrum spectrum;
     if (const auto layout = layout_of(text, table)) {
         spectrum.nm = layout->nm;
@@ -205,7 +205,7 @@ std::expected<Spectrum, SpectrumErrors> read_cgats(SpectrumText text, const std:
 }
 
 std::expected<std::vector<std::string>, SpectrumErrors> cgats_columns(SpectrumText text) {
-    const Table table = read_table(words(text.text));
+    const CgatsTable table = read_table(words(text.text));
     const auto layout = layout_of(text, table);
     if (!layout) return std::unexpected(std::move(text.errors));
     return set_names(table, *layout);

@@ -8,7 +8,7 @@ namespace lueur {
 
 namespace {
 
-constexpr std::string_view allowed_file =
+constexpr std::string_view allowed_csv =
     "allowed: a text file, a header line wavelength_nm,NAME,... and rows of numbers";
 
 std::vector<Cell> split(std::string_view line, std::size_t number) {
@@ -65,7 +65,7 @@ std::optional<std::size_t> find_column(SpectrumText& text, const std::vector<Cel
 
 std::expected<Spectrum, SpectrumErrors> read_spectrum_csv(const std::filesystem::path& file,
                                                           const std::string& column) {
-    auto opened = open_spectrum_text(file, allowed_file);
+    auto opened = open_spectrum_text(file, allowed_csv);
     if (!opened) return std::unexpected(std::move(opened.error()));
     SpectrumText& text = *opened;
 
@@ -91,12 +91,12 @@ std::expected<Spectrum, SpectrumErrors> read_spectrum_csv(const std::filesystem:
         if (!wanted) continue;
         if (const auto value = text.number(cells[*wanted])) spectrum.value.push_back(*value);
     }
-    if (column_count == 0) text.error(fmt::format("is empty; {}", allowed_file));
+    if (column_count == 0) text.error(fmt::format("is empty; {}", allowed_csv));
     return text.finish(std::move(spectrum));
 }
 
 std::expected<std::vector<std::string>, SpectrumErrors> csv_columns(const std::filesystem::path& file) {
-    auto opened = open_spectrum_text(file, allowed_file);
+    auto opened = open_spectrum_text(file, allowed_csv);
     if (!opened) return std::unexpected(std::move(opened.error()));
     std::string_view line;
     for (SpectrumLines lines(opened->text); lines.next(line);) {
@@ -107,7 +107,7 @@ std::expected<std::vector<std::string>, SpectrumErrors> csv_columns(const std::f
         for (std::size_t i = 1; i < cells.size(); ++i) names.emplace_back(cells[i].text);
         return names;
     }
-    opened->error(fmt::format("is empty; {}", allowed_file));
+    opened->error(fmt::format("is empty; {}", allowed_csv));
     return std::unexpected(std::move(opened->errors));
 }
 

@@ -13,7 +13,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int most_rounds = 100;
+constexpr int most_basis_rounds = 100;
 
 // Linear RGB of each node's hat under D65, scaled so that white is exactly (1, 1, 1): 3 rows. End values go on.
 MatrixXd colour_of_nodes() {
@@ -54,7 +54,7 @@ std::array<Spectrum, 3> solve_basis() {
 
     std::vector<bool> active(bounds, false);
     VectorXd x = VectorXd::Zero(unknowns);
-    for (int round = 0; round < most_rounds; ++round) {
+    for (int round = 0; round < most_basis_rounds; ++round) {
         std::vector<int> rows;
         for (int i = 0; i < bounds; ++i)
             if (active[static_cast<std::size_t>(i)]) rows.push_back(i);

@@ -8,8 +8,7 @@ namespace lueur {
 
 namespace {
 
-constexpr double most_mean = 0.95; // for a scene that is all white
-constexpr double visible_first_nm = 380, visible_last_nm = 780;
+constexpr double most_mean = 0.95;    // for a scene that is all white
 constexpr int all_triples_up_to = 60; // reflectances: 37,820 triples
 
 } // namespace

@@ -8,6 +8,7 @@
 namespace lueur {
 
 inline constexpr int visible_count = observer_last_nm - observer_first_nm + 1;
+inline constexpr int visible_first_nm = 380, visible_last_nm = 780; // of what is said to be light: lamps' watts, white
 using VisibleGrid = std::array<double, visible_count>;
 
 VisibleGrid on_visible_grid(const Spectrum& spectrum, Outside outside); // values at whole nanometres

@@ -16,7 +16,6 @@ namespace lueur {
 
 namespace {
 
-constexpr double visible_first_nm = 380, visible_last_nm = 780;
 constexpr int min_uniform = 4, max_uniform = 81, most_within_400_700 = 31;
 constexpr int min_folded = 1, max_folded = 32;
 

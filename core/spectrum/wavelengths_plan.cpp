@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::MatrixXd;
 
-constexpr std::size_t most_products = 3300;
+constexpr std::size_t most_predicted_products = 3300;
 constexpr int most_samples = 24;
 constexpr double much_better = 1.5;
 // Times the target: what plain least squares may miss it by for weights of a small worst difference to be tried, and
@@ -48,7 +48,7 @@ public:
     explicit Truth(const SpectralContent& content)
         : content_(content)
         , reflectances_(with_interreflection(content.reflectances))
-        , products_(reflectance_products(static_cast<int>(reflectances_.size()), most_products)) {
+        , products_(reflectance_products(static_cast<int>(reflectances_.size()), most_predicted_products)) {
         std::vector<std::vector<double>> fine;
         for (const Spectrum& reflectance : reflectances_) {
             const VisibleGrid values = on_visible_grid(reflectance, Outside::constant);

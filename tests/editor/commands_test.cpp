@@ -23,12 +23,6 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string text_of(const std::filesystem::path& file) {
-    std::ostringstream text;
-    text << std::ifstream(file).rdbuf();
-    return text.str();
-}
-
 std::size_t files_in(const std::filesystem::path& folder) {
     std::size_t count = 0;
     for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder)) ++count;
@@ -106,7 +100,7 @@ protected:
     // The appended columns of each row.
     std::vector<std::vector<double>> measured() const {
         std::vector<std::vector<double>> rows;
-        const auto text = text_of(file("out.csv"));
+        const auto text = test::text_of(file("out.csv"));
         const auto records = parse_csv(text);
         for (std::size_t r = 1; r < records.size(); ++r) {
             rows.emplace_back();
@@ -165,7 +159,7 @@ TEST_F(Furnace, MeasuresTheChannelsWithRgb) {
     write("furnace.toml", scene);
     command.batch.solve.wavelengths = WavelengthsSpec{WavelengthRule::rgb, 3};
     ASSERT_EQ(run(command), 0);
-    EXPECT_THAT(text_of(command.output), HasSubstr(",irradiance_r,irradiance_g,irradiance_b\n"));
+    EXPECT_THAT(test::text_of(command.output), HasSubstr(",irradiance_r,irradiance_g,irradiance_b\n"));
     ASSERT_EQ(measured().size(), 3u);
     for (const auto& row : measured()) {
         ASSERT_EQ(row.size(), 6u);
@@ -181,7 +175,7 @@ TEST_F(Furnace, APointOffEverySurfaceReadsNanInTheField) {
     testing::internal::CaptureStderr();
     ASSERT_EQ(run(command), 0);
     EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("warning: 1 of 1 points"));
-    EXPECT_THAT(text_of(command.output), HasSubstr("1,1,1,0,1,0,nan,nan,nan\n"));
+    EXPECT_THAT(test::text_of(command.output), HasSubstr("1,1,1,0,1,0,nan,nan,nan\n"));
 }
 
 TEST_F(Furnace, TellsAllMistakesOfSceneAndPointsAndWritesNothing) {
@@ -242,7 +236,7 @@ TEST_F(Furnace, RendersAnEvenPictureThatSaysHowItWasMade) {
     EXPECT_EQ(metadata->at("lueur:version"), LUEUR_VERSION);
     EXPECT_EQ(metadata->at("lueur:camera_position"), "1 1 1.9");
 
-    const auto report = nlohmann::json::parse(text_of(file("report.json")));
+    const auto report = nlohmann::json::parse(test::text_of(file("report.json")));
     EXPECT_EQ(report.at("command"), "render");
     EXPECT_EQ(report.at("end"), "settled");
     EXPECT_GT(report.at("rays").get<double>(), 0);
@@ -299,17 +293,17 @@ TEST_F(Furnace, ATimeThatIsTooShortStillGivesAPicture) {
     command.batch.solve.target_error = 1e-6;
     command.batch.report = file("report.json");
     ASSERT_EQ(run(command), 0);
-    EXPECT_EQ(nlohmann::json::parse(text_of(file("report.json"))).at("end"), "out of time");
+    EXPECT_EQ(nlohmann::json::parse(test::text_of(file("report.json"))).at("end"), "out of time");
     EXPECT_TRUE(std::filesystem::exists(command.output));
 }
 
 TEST_F(Furnace, OneThreadGivesTheSameAsMany) {
     auto command = measure(points);
     ASSERT_EQ(run(command), 0);
-    const auto many = text_of(command.output);
+    const auto many = test::text_of(command.output);
     command.batch.threads = 1;
     ASSERT_EQ(run(command), 0);
-    EXPECT_EQ(text_of(command.output), many);
+    EXPECT_EQ(test::text_of(command.output), many);
 }
 
 // In a process of its own: the signal is sent while a picture is made that would take many seconds.
@@ -343,7 +337,7 @@ TEST_F(Furnace, PlansItsWavelengths) {
     EXPECT_THAT(told, HasSubstr("one lamp spectrum: predicted dE2000 0.00 on average, 0.00 at worst"));
     for (const char* rule : {"meyer:4", "gauss:10", "uniform:31", "uniform:81", "rgb"})
         EXPECT_THAT(told, HasSubstr(rule));
-    const auto report = nlohmann::json::parse(text_of(file("plan.json")));
+    const auto report = nlohmann::json::parse(test::text_of(file("plan.json")));
     EXPECT_EQ(report["asked"], "auto");
     EXPECT_EQ(report["wavelengths"], "folded:1");
     EXPECT_EQ(report["channel_nm"].size(), 1u);
@@ -360,7 +354,7 @@ TEST_F(Furnace, PlansItsWavelengths) {
     testing::internal::CaptureStdout();
     ASSERT_EQ(run(plan), 0);
     testing::internal::GetCapturedStdout();
-    EXPECT_EQ(nlohmann::json::parse(text_of(file("plan.json")))["rules"].size(), 5u);
+    EXPECT_EQ(nlohmann::json::parse(test::text_of(file("plan.json")))["rules"].size(), 5u);
 }
 
 TEST_F(Furnace, PlanTellsMistakesAndWritesNothing) {
@@ -387,10 +381,10 @@ TEST_F(Furnace, ChartsSpectra) {
     testing::internal::CaptureStdout();
     ASSERT_EQ(run(chart), 0);
     testing::internal::GetCapturedStdout();
-    const std::string svg = text_of(file("chart.svg"));
+    const std::string svg = test::text_of(file("chart.svg"));
     for (const char* word : {"folded", "uniform", "gauss", "meyer", "rgb", "auto", "LED-B3", "solve time, ms"})
         EXPECT_THAT(svg, HasSubstr(word));
-    const std::string text = text_of(file("chart.csv"));
+    const std::string text = test::text_of(file("chart.csv"));
     const auto records = parse_csv(text);
     ASSERT_GT(records.size(), 200u);
     EXPECT_EQ(records[0].raw, "lights,light,rule,wavelengths,channels,mean_de2000,worst_de2000,solve_seconds");
@@ -421,10 +415,10 @@ TEST_F(Furnace, ChartsMethods) {
     testing::internal::CaptureStdout();
     ASSERT_EQ(run(chart), 0);
     EXPECT_THAT(testing::internal::GetCapturedStdout(), HasSubstr("The best of them:\n  from "));
-    const std::string svg = text_of(file("chart.svg"));
+    const std::string svg = test::text_of(file("chart.svg"));
     for (const char* word : {"gathering", "shooting", "solve time, s", "256 traced paths"})
         EXPECT_THAT(svg, HasSubstr(word));
-    const auto table = parse_chart_table(text_of(file("chart.csv")), "chart.csv");
+    const auto table = parse_chart_table(test::text_of(file("chart.csv")), "chart.csv");
     ASSERT_TRUE(table) << table.error().front();
     EXPECT_EQ(methods_of(*table), all_chart_methods()) << "every method is there, whether it ended well or not";
     EXPECT_EQ(table->runs.size(), all_chart_methods().size() * chart_budgets().size());

@@ -20,12 +20,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-std::string text_of(const std::filesystem::path& file) {
-    std::ostringstream text;
-    text << std::ifstream(file).rdbuf();
-    return text.str();
-}
-
 // Howell C-11 and C-14: opposed unit squares, 1 apart, half hidden or not; squares with a common edge.
 constexpr const char* good_cases = R"({"header": {"units": "any"}, "cases": [
  {"name": "opposed", "polygon1": [[0,0,0],[1,0,0],[1,1,0],[0,1,0]], "polygon2": [[0,0,1],[0,1,1],[1,1,1],[1,0,1]], "F12": 7},
@@ -43,7 +37,7 @@ TEST(FormFactorCommand, GivesOneEntryACaseAndMethod) {
     command.output = output;
     command.settings.resolution = 32;
     EXPECT_EQ(run(command), 0);
-    const auto entries = nlohmann::json::parse(text_of(output));
+    const auto entries = nlohmann::json::parse(test::text_of(output));
     ASSERT_EQ(entries.size(), 3 * (all_form_factor_methods.size() - 1));
     const double exact[] = {0.19982489569838738, 0.20004377607540316, 0};
     const char* names[] = {"opposed", "case 2", "hidden"};
@@ -71,7 +65,7 @@ TEST(FormFactorCommand, OneSampleHasNoError) {
     command.methods = {FormFactorMethod::hemicube, FormFactorMethod::automatic};
     command.settings.samples = 1;
     EXPECT_EQ(run(command), 0);
-    const auto entries = nlohmann::json::parse(text_of(output));
+    const auto entries = nlohmann::json::parse(test::text_of(output));
     ASSERT_EQ(entries.size(), 6u);
     EXPECT_TRUE(entries[0]["standard_error"].is_null());
     EXPECT_EQ(entries[1]["method"], "auto");

@@ -22,7 +22,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
-const std::atomic<bool> never{false};
 const ChartMethod gathering{SolverKind::gathering, {}, ChartMethod{}.oracle},
     shooting{SolverKind::shooting, {}, ChartMethod{}.oracle}, paths{SolverKind::reference, {}, ChartMethod{}.oracle};
 
@@ -41,7 +40,7 @@ ChartPoint look(double seconds, double error) {
     return point;
 }
 
-MethodChart small_chart() {
+MethodChart small_method_chart() {
     MethodChart chart;
     chart.scene = "box & ball";
     chart.points = 393;
@@ -114,7 +113,7 @@ TEST(ParetoFront, NoPointOfItIsBeatenAndEveryOtherIs) {
 }
 
 TEST(MethodChart, ACurveIsTheBestOfAllBudgetsByThen) {
-    const MethodChart chart = small_chart();
+    const MethodChart chart = small_method_chart();
     EXPECT_THAT(curve_of(chart, gathering),
                 ElementsAre(glm::dvec2(0.01, 0.5), glm::dvec2(0.05, 0.4), glm::dvec2(0.15, 0.25), glm::dvec2(0.2, 0.1),
                             glm::dvec2(1, 0.03)));
@@ -178,7 +177,7 @@ TEST(Milestones, AreSetByWorkNotByTheClock) {
 }
 
 TEST(ChartTable, ReadsWhatItWrites) {
-    const MethodChart chart = small_chart();
+    const MethodChart chart = small_method_chart();
     const std::string text = chart_table(chart);
     const auto read = parse_chart_table(text, "a.csv");
     ASSERT_TRUE(read) << read.error().front();
@@ -212,7 +211,7 @@ TEST(ChartTable, ReadsWhatItWrites) {
 TEST(ChartTable, TellsEveryFaultWithItsPlace) {
     EXPECT_THAT(parse_chart_table("x,y\n1,2\n", "a.csv").error().front(), testing::StartsWith("a.csv:1:1: "));
     EXPECT_FALSE(parse_chart_table("", "a.csv"));
-    std::string text = chart_table(small_chart());
+    std::string text = chart_table(small_method_chart());
     text.replace(text.find("gathering"), 9, "gathering?");
     text.replace(text.find("unfinished"), 10, "exhausted");
     const auto faults = parse_chart_table(text, "a.csv");
@@ -221,13 +220,13 @@ TEST(ChartTable, TellsEveryFaultWithItsPlace) {
     EXPECT_THAT(faults.error()[0],
                 testing::StartsWith("a.csv:2:1: solver is \"gathering?\"; allowed: auto, gathering, "));
     EXPECT_THAT(faults.error()[1], HasSubstr("end is \"exhausted\"; allowed: settled, unfinished, "));
-    text = chart_table(small_chart());
+    text = chart_table(small_method_chart());
     text += "jacobi,hemicube\n";
     EXPECT_THAT(parse_chart_table(text, "a.csv").error().front(), HasSubstr(": 2 columns; 21 are needed"));
 }
 
 TEST(ChartPicture, DrawsEveryMethodAndMarksWhatFailed) {
-    const MethodChart chart = small_chart();
+    const MethodChart chart = small_method_chart();
     const Chart picture = picture_of(chart);
     ASSERT_EQ(picture.panels.size(), 1u);
     EXPECT_EQ(picture.series.size(), 3u);
@@ -263,7 +262,7 @@ TEST(RunChart, ChartsASmallRoom) {
         last = share;
         if (told.empty() || told.back() != what) told.push_back(what);
     };
-    const MethodChart chart = run_chart(scene, params, never, progress);
+    const MethodChart chart = run_chart(scene, params, test::never, progress);
     EXPECT_THAT(told, ElementsAre("reference paths", "gathering", "shooting", "reference", "gathering", "shooting",
                                   "reference"));
     EXPECT_GE(last, 5.0 / 6);
@@ -279,7 +278,7 @@ TEST(RunChart, ChartsASmallRoom) {
         EXPECT_LT(run.points.back().error.rms, run.level == 0 ? 0.6 : 0.25) << to_string(run.method);
         EXPECT_GT(run.rays, 0u);
     }
-    const MethodChart again = run_chart(scene, params, never);
+    const MethodChart again = run_chart(scene, params, test::never);
     ASSERT_EQ(again.runs.size(), chart.runs.size());
     for (std::size_t i = 0; i < chart.runs.size(); ++i) {
         ASSERT_EQ(again.runs[i].points.size(), chart.runs[i].points.size());
@@ -289,14 +288,14 @@ TEST(RunChart, ChartsASmallRoom) {
 }
 
 TEST(EditTimes, AreThoseOfASceneThatSettles) {
-    const auto times = edit_times(test::small_room(), 60, never);
+    const auto times = edit_times(test::small_room(), 60, test::never);
     ASSERT_TRUE(times);
     EXPECT_GT(times->reflectance, 0);
     EXPECT_GT(times->dimmer, 0);
-    EXPECT_FALSE(edit_times(test::small_room(), 1e-9, never)) << "no time";
+    EXPECT_FALSE(edit_times(test::small_room(), 1e-9, test::never)) << "no time";
     const std::atomic<bool> always{true};
     EXPECT_FALSE(edit_times(test::small_room(), 60, always));
-    EXPECT_FALSE(edit_times({}, 60, never)) << "nothing to edit";
+    EXPECT_FALSE(edit_times({}, 60, test::never)) << "nothing to edit";
 }
 
 TEST(RunChart, MarksWhatDoesNotSettle) {
@@ -306,24 +305,24 @@ TEST(RunChart, MarksWhatDoesNotSettle) {
     params.levels = 2;
     params.methods = {gathering, shooting};
     params.run_limit = 1e-9;
-    for (const ChartRun& run : run_chart(test::small_room(), params, never).runs) {
+    for (const ChartRun& run : run_chart(test::small_room(), params, test::never).runs) {
         EXPECT_EQ(run.end, run.level == 0 ? RunEnd::unfinished : RunEnd::not_started);
         EXPECT_THAT(run.reason, HasSubstr("not finished within 1e-09 s"));
     }
     params.run_limit = 60;
     params.row_memory = 1e-3;
     params.methods = {gathering};
-    EXPECT_EQ(run_chart(test::small_room(), params, never).runs[0].end, RunEnd::out_of_memory);
+    EXPECT_EQ(run_chart(test::small_room(), params, test::never).runs[0].end, RunEnd::out_of_memory);
     params.row_memory = 1000;
     params.time_limit = 1e-9;
-    for (const ChartRun& run : run_chart(test::small_room(), params, never).runs) {
+    for (const ChartRun& run : run_chart(test::small_room(), params, test::never).runs) {
         EXPECT_EQ(run.end, RunEnd::not_started);
         EXPECT_THAT(run.reason, HasSubstr("for all are over"));
     }
     // All of the light stays for ever: there is no finite solution.
     params.time_limit = 60;
     params.methods = {gathering};
-    const MethodChart furnace = run_chart(test::furnace(1), params, never);
+    const MethodChart furnace = run_chart(test::furnace(1), params, test::never);
     ASSERT_FALSE(furnace.runs.empty());
     EXPECT_EQ(furnace.runs[0].end, RunEnd::refused);
     EXPECT_THAT(furnace.runs[0].reason, HasSubstr("no finite solution"));

@@ -22,18 +22,17 @@ TEST(Gathering, ResidualNeverGrows) {
     const std::vector<float> area(rho.count, 1.0f);
     GatherSystem system(rho.count, 31, area);
     system.set_sources(rho, direct);
-    const std::atomic<bool> never{false};
     double before = system.relative_residual();
     EXPECT_NEAR(before, 1, 1e-6);
     for (int sweep = 0; sweep < 25 && before > 1e-5; ++sweep) {
-        ASSERT_TRUE(system.sweep(s.passes, never));
+        ASSERT_TRUE(system.sweep(s.passes, test::never));
         EXPECT_LE(system.relative_residual(), before * (1 + 1e-5));
         before = system.relative_residual();
     }
     EXPECT_LT(before, 1e-4);
     // The residual it says is the residual there is: B - rho W B = b.
     ChannelField wb(rho.count, 31);
-    ASSERT_TRUE(apply_rows(s.passes, RayEnds::coarse, system.radiosity(), wb, never));
+    ASSERT_TRUE(apply_rows(s.passes, RayEnds::coarse, system.radiosity(), wb, test::never));
     double square = 0, norm = 0;
     for (std::uint32_t i = 0; i < rho.count; ++i)
         for (int c = 0; c < 31; ++c) {
@@ -63,7 +62,7 @@ TEST(Gathering, CancelledStepsLeaveAValidState) {
     while (true) {
         if (steps++ % 3 == 0)
             cut.step(always);
-        else if (!cut.step(never))
+        else if (!cut.step(test::never))
             break;
         ASSERT_LT(steps, 100000);
     }
@@ -81,7 +80,6 @@ TEST(Gathering, RandomEditsSettleWhereAFreshSolveDoes) {
     Scene scene = test::small_room();
     scene.solve.target_error = 0.04;
     Solution edited(std::make_shared<const Scene>(scene));
-    const std::atomic<bool> never{false};
     for (int round = 0; round < 12; ++round) {
         for (int edit = 0; edit < 5; ++edit) {
             SolveFrom from = SolveFrom::reflectance;
@@ -105,7 +103,7 @@ TEST(Gathering, RandomEditsSettleWhereAFreshSolveDoes) {
                 break;
             }
             edited.update(std::make_shared<const Scene>(scene), from);
-            for (std::size_t steps = pick(12); steps > 0 && edited.step(never); --steps) {
+            for (std::size_t steps = pick(12); steps > 0 && edited.step(test::never); --steps) {
             }
         }
         if (round % 4 != 3) continue;
@@ -181,8 +179,7 @@ TEST(Shooting, LuminairesShootFirstAndTheAmbientTermFillsIn) {
     Scene scene = test::small_room();
     scene.solve.solver = SolverKind::shooting;
     Solution solution(std::make_shared<const Scene>(scene));
-    const std::atomic<bool> never{false};
-    while (solution.status().shots < 1) ASSERT_TRUE(solution.step(never));
+    while (solution.status().shots < 1) ASSERT_TRUE(solution.step(test::never));
     EXPECT_EQ(solution.status().shooting_patch, no_index); // a luminaire, not a patch
     // Places no lamp reaches are not black: the ambient term stands for the unshot flux.
     const std::vector<float> ambient = solution.state().ambient();

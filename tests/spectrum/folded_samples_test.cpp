@@ -15,11 +15,6 @@ Wavelengths folded(int count, const SpectralContent& content) {
     return make_wavelengths({WavelengthRule::folded, count}, content);
 }
 
-std::vector<Spectrum> patches() {
-    static const std::vector<Spectrum> paints = library_paints("ColorChecker");
-    return paints;
-}
-
 TEST(FoldedSamples, WhiteAndWattsAreExactForEveryLightOfTheLibrary) {
     for (const NamedSpectrum& light : library_lights()) {
         const Wavelengths w = folded(6, {{light.spectrum}, library_paints("Cornell box")});
@@ -34,7 +29,7 @@ TEST(FoldedSamples, WhiteAndWattsAreExactForEveryLightOfTheLibrary) {
 // All its power in one line 1 nm wide: hardly more than the paint's value there counts.
 TEST(FoldedSamples, ALaserTakesTwoOrThreeSamples) {
     for (const double nm : {450.0, 532.0, 589.0, 633.0}) {
-        const SpectralContent content{{laser(nm)}, patches()};
+        const SpectralContent content{{laser(nm)}, colour_checker()};
         const WavelengthsPlan plan = plan_wavelengths({WavelengthRule::automatic, 0}, content, 0.5);
         EXPECT_LE(plan.wavelengths.size(), 3) << nm;
         const Differences three = true_differences(plan.wavelengths, content.lights[0], content.reflectances, 7);
@@ -43,7 +38,7 @@ TEST(FoldedSamples, ALaserTakesTwoOrThreeSamples) {
 }
 
 TEST(FoldedSamples, ALineOnASampleIsExactWithOne) {
-    const SpectralContent content{{{{549.99, 550, 550.01}, {0, 100, 0}}}, patches()};
+    const SpectralContent content{{{{549.99, 550, 550.01}, {0, 100, 0}}}, colour_checker()};
     const Wavelengths w = folded(1, content);
     EXPECT_EQ(w.nm, std::vector<double>{550});
     // Its colours, straight from the values at the line: the sums at 1 nm of the other tests would miss half of it.
@@ -57,7 +52,7 @@ TEST(FoldedSamples, ALineOnASampleIsExactWithOne) {
 }
 
 TEST(FoldedSamples, EachLightHasChannelsOfItsOwn) {
-    const SpectralContent content{{library_light("A"), library_light("FL11"), library_light("HP1")}, patches()};
+    const SpectralContent content{{library_light("A"), library_light("FL11"), library_light("HP1")}, colour_checker()};
     const Wavelengths w = folded(10, content);
     ASSERT_EQ(w.size(), 30);
     ASSERT_EQ(w.samples, 10);
@@ -75,7 +70,7 @@ TEST(FoldedSamples, EachLightHasChannelsOfItsOwn) {
 
 // Lights differ by their weights only: what is solved, unit emission on paints, is the same numbers.
 TEST(FoldedSamples, AnotherLightOfTheSameFluxHasTheSameChannels) {
-    const SpectralContent daylight{{library_light("D65")}, patches()};
+    const SpectralContent daylight{{library_light("D65")}, colour_checker()};
     const Wavelengths before = folded(10, daylight);
     SpectralContent sodium = daylight;
     sodium.lights = {library_light("HP1")};
@@ -95,7 +90,7 @@ TEST(FoldedSamples, AnotherLightOfTheSameFluxHasTheSameChannels) {
 
 TEST(FoldedSamples, ASpectrumFromChannelsKeepsItsXyz) {
     for (const char* name : {"D65", "FL11", "LED-B3"}) {
-        const SpectralContent content{{library_light(name)}, patches()};
+        const SpectralContent content{{library_light(name)}, colour_checker()};
         const Wavelengths w = folded(12, content);
         const std::vector<double> emission = emission_channels(w, content.lights[0]);
         const Xyz white = xyz_from_channels(w, emission);
@@ -137,7 +132,7 @@ void expect_finite(const Wavelengths& w) {
 }
 
 TEST(FoldedSamples, WithoutALightThereIsEqualEnergy) {
-    const SpectralContent dark{{}, patches()};
+    const SpectralContent dark{{}, colour_checker()};
     for (const WavelengthsSpec spec : {WavelengthsSpec{WavelengthRule::automatic, 0}, {WavelengthRule::folded, 8}}) {
         const WavelengthsPlan plan = plan_wavelengths(spec, dark, 0.5);
         ASSERT_GT(plan.wavelengths.size(), 0);
@@ -152,7 +147,7 @@ TEST(FoldedSamples, WithoutALightThereIsEqualEnergy) {
 TEST(FoldedSamples, LightsThatNobodySees) {
     const Spectrum off{{380, 780}, {0, 0}}, ultraviolet{{300, 320, 340}, {0, 1, 0}}, infrared{{900, 950}, {1, 1}};
     for (const Spectrum& unseen : {off, ultraviolet, infrared}) {
-        const SpectralContent alone{{unseen}, patches()}, beside{{library_light("A"), unseen}, patches()};
+        const SpectralContent alone{{unseen}, colour_checker()}, beside{{library_light("A"), unseen}, colour_checker()};
         for (const SpectralContent& content : {alone, beside}) {
             const WavelengthsPlan plan = plan_wavelengths({WavelengthRule::automatic, 0}, content, 0.5);
             ASSERT_GT(plan.wavelengths.size(), 0);
@@ -163,13 +158,13 @@ TEST(FoldedSamples, LightsThatNobodySees) {
     }
     // Deep violet is watts and hardly light: the watts are there.
     const Spectrum violet{{381, 383, 385}, {0, 1, 0}};
-    const Wavelengths w = folded(4, {{violet}, patches()});
+    const Wavelengths w = folded(4, {{violet}, colour_checker()});
     expect_finite(w);
     EXPECT_NEAR(watts_from_channels(w, emission_channels(w, violet)), 2, 1e-9);
 }
 
 TEST(FoldedSamples, TheScaleOfALightDoesNotMatter) {
-    SpectralContent content{{library_light("FL2")}, patches()};
+    SpectralContent content{{library_light("FL2")}, colour_checker()};
     const Wavelengths w = folded(8, content);
     for (const double scale : {1e-30, 1e-6, 1e30}) {
         SpectralContent scaled_content = content;

@@ -46,6 +46,11 @@ inline std::vector<Spectrum> library_paints(const std::string& group) {
     return paints;
 }
 
+inline const std::vector<Spectrum>& colour_checker() {
+    static const std::vector<Spectrum> paints = library_paints("ColorChecker");
+    return paints;
+}
+
 // A source of 1 W in one line 1 nm wide.
 inline Spectrum laser(double nm) {
     return {{nm - 1, nm, nm + 1}, {0, 1, 0}};

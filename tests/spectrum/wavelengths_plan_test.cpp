@@ -14,14 +14,9 @@ constexpr WavelengthsSpec automatic{WavelengthRule::automatic, 0};
 constexpr double target = 0.5;
 constexpr std::size_t every_seventh = 7; // of the 2,600 products of three patches
 
-std::vector<Spectrum> patches() {
-    static const std::vector<Spectrum> paints = library_paints("ColorChecker");
-    return paints;
-}
-
 TEST(WavelengthsPlan, EightyOneChannelsAreTheTruth) {
     for (const char* name : {"A", "D65", "FL2", "FL11", "LED-B1", "LED-B3", "LED-RGB1", "HP1"}) {
-        const SpectralContent content{{library_light(name)}, patches()};
+        const SpectralContent content{{library_light(name)}, colour_checker()};
         const Wavelengths truth = make_wavelengths({WavelengthRule::uniform, 81}, content);
         EXPECT_LT(true_differences(truth, content.lights[0], content.reflectances).worst, 0.05) << name;
         const Differences three = true_differences(truth, content.lights[0], content.reflectances, every_seventh);
@@ -32,7 +27,7 @@ TEST(WavelengthsPlan, EightyOneChannelsAreTheTruth) {
 
 TEST(WavelengthsPlan, AutoMeetsItsTargetAfterThreeBounces) {
     for (const char* name : {"A", "D65", "FL2", "FL11", "LED-B1", "LED-B3", "LED-RGB1", "HP1"}) {
-        const SpectralContent content{{library_light(name)}, patches()};
+        const SpectralContent content{{library_light(name)}, colour_checker()};
         const WavelengthsPlan plan = plan_wavelengths(automatic, content, target);
         EXPECT_TRUE(plan.wavelengths.folded()) << name;
         EXPECT_LE(plan.prediction.worst, target) << name;
@@ -44,7 +39,8 @@ TEST(WavelengthsPlan, AutoMeetsItsTargetAfterThreeBounces) {
         EXPECT_LT(one.worst, target + 0.05) << name;
     }
     for (const char* smooth : {"A", "C", "D50", "D55", "D65", "D75", "E"})
-        EXPECT_LE(plan_wavelengths(automatic, {{library_light(smooth)}, patches()}, target).wavelengths.size(), 12)
+        EXPECT_LE(plan_wavelengths(automatic, {{library_light(smooth)}, colour_checker()}, target).wavelengths.size(),
+                  12)
             << smooth;
 }
 
@@ -52,7 +48,7 @@ TEST(WavelengthsPlan, AutoMeetsItsTargetAfterThreeBounces) {
 TEST(WavelengthsPlan, ThePredictionIsTrueForEveryLightAndPatchOfTheLibrary) {
     constexpr std::size_t every_so_many = 53;
     for (const NamedSpectrum& light : library_lights()) {
-        const SpectralContent content{{light.spectrum}, patches()};
+        const SpectralContent content{{light.spectrum}, colour_checker()};
         const WavelengthsPlan plan = plan_wavelengths(automatic, content, target);
         EXPECT_LE(plan.prediction.worst, target) << light.name << ": " << plan.reason;
         const Differences one = true_differences(plan.wavelengths, light.spectrum, content.reflectances);
@@ -100,7 +96,7 @@ TEST(WavelengthsPlan, ThePredictionIsTrueForEveryRule) {
 // plans anew (EditsKeepTheWavelengthsWhileThePredictionHolds).
 TEST(WavelengthsPlan, ReflectancesThatTheFitHasNotSeen) {
     std::vector<Spectrum> seen, unseen, test_colours;
-    const std::vector<Spectrum> all = patches();
+    const std::vector<Spectrum> all = colour_checker();
     for (std::size_t i = 0; i < all.size(); ++i) (i % 2 == 0 ? seen : unseen).push_back(all[i]);
     for (int number = 1; number <= test_colour_count; ++number) test_colours.push_back(test_colour_sample(number));
     Differences means;
@@ -136,7 +132,7 @@ TEST(WavelengthsPlan, MoreSamplesForASmallerTarget) {
 }
 
 TEST(WavelengthsPlan, EditsKeepTheWavelengthsWhileThePredictionHolds) {
-    SpectralContent content{{library_light("LED-B3")}, patches()};
+    SpectralContent content{{library_light("LED-B3")}, colour_checker()};
     const WavelengthsPlan first = plan_wavelengths(automatic, content, target);
     // A paint less, and the lamp dimmed by its spectrum's scale: kept as they are.
     content.reflectances.pop_back();

@@ -12,6 +12,7 @@
 #include "core/solve/solution_state.h"
 #include "core/transport/sampling.h"
 #include "core/view/surface_points.h"
+#include "tests/support/scenes.h"
 
 namespace lueur::test {
 
@@ -33,7 +34,6 @@ inline std::vector<TruePoint> true_vertices(const Solution& solution, bool coars
     std::discrete_distribution<std::uint32_t> choose(area.begin(), area.end());
     const std::vector<glm::vec3> origins = ray_origins(s.mesh, s.world->epsilon());
     const PathLights lights = make_path_lights(s);
-    const std::atomic<bool> never{false};
     std::vector<TruePoint> points(static_cast<std::size_t>(count));
     for (TruePoint& p : points) p.vertex = choose(random);
     tbb::parallel_for(std::size_t(0), points.size(), [&](std::size_t i) {
@@ -49,7 +49,6 @@ inline std::vector<TruePoint> true_surface_points(const Solution& solution, int 
     const Solution::State& s = solution.state();
     const std::vector<MeasurePoint> chosen = surface_points(solution, count, seed);
     const PathLights lights = make_path_lights(s);
-    const std::atomic<bool> never{false};
     std::vector<TruePoint> points(chosen.size());
     tbb::parallel_for(std::size_t(0), points.size(), [&](std::size_t i) {
         points[i].position = chosen[i].position, points[i].normal = chosen[i].normal;

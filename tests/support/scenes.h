@@ -120,8 +120,9 @@ inline Scene small_room() {
     return b.build();
 }
 
+inline const std::atomic<bool> never{false}; // for what can be cancelled
+
 inline void settle(Solution& solution) {
-    const std::atomic<bool> never{false};
     while (solution.step(never)) {
     }
 }

@@ -36,6 +36,11 @@ private:
     std::filesystem::path path_;
 };
 
+inline std::string text_of(const std::filesystem::path& file) { // empty where there is none
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
 // Each test with a folder of its own.
 class FolderTest : public testing::Test {
 protected:
@@ -44,10 +49,7 @@ protected:
         std::ofstream(folder / name, std::ios::binary) << bytes;
         return folder / name;
     }
-    static std::string read(const std::filesystem::path& file) {
-        std::ifstream stream(file, std::ios::binary);
-        return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-    }
+    static std::string read(const std::filesystem::path& file) { return text_of(file); }
     std::vector<std::string> entries() const {
         std::vector<std::string> names;
         for (const auto& entry : std::filesystem::directory_iterator(folder))

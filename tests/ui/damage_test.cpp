@@ -38,7 +38,7 @@ std::vector<std::uint32_t> pixels_of(const Target& target) {
 }
 
 // What the frames of this test show.
-struct Shown {
+struct ShownPanels {
     PixelBox picture{20, 30, 400, 300};
     int counter = 0;
     bool second_panel = true, dialog = false, note = false, callback = false;
@@ -53,7 +53,7 @@ void panel(const char* name, ImVec2 at, ImVec2 size) {
 
 void ignore(const ImDrawList*, const ImDrawCmd*) {}
 
-ImDrawData& frame_of(Window& window, const Shown& shown) {
+ImDrawData& frame_of(Window& window, const ShownPanels& shown) {
     window.begin_frame();
     panel("left", {410, 10}, {220.6f, 200.4f});
     ImGui::Text("counter %d", shown.counter);
@@ -101,7 +101,7 @@ std::unique_ptr<Window> DamageTest::window_;
 
 TEST_F(DamageTest, NothingButThePictureIsDrawnAgainWhileNothingElseChanges) {
     FrameDamage damage;
-    Shown shown;
+    ShownPanels shown;
     for (int i = 0; i < 3; ++i) damage.next(frame_of(*window_, shown), shown.picture); // windows settle their sizes
     EXPECT_EQ(damage.next(frame_of(*window_, shown), shown.picture), std::vector{shown.picture});
     EXPECT_TRUE(damage.next(frame_of(*window_, shown), {}) == std::vector{shown.picture}) << "where it was";
@@ -125,7 +125,7 @@ TEST_F(DamageTest, DrawsWhatAWholeFrameWouldShow) {
     std::uint32_t noise = 1;
     FrameDamage damage;
     std::size_t drawn = 0, frames = 0;
-    const auto compare = [&](const Shown& shown, const char* what) {
+    const auto compare = [&](const ShownPanels& shown, const char* what) {
         for (auto& colour : colours) colour = 0xff000000u | ((noise = noise * 1664525u + 1013904223u) >> 8);
         glBindTexture(GL_TEXTURE_2D, source.texture); // another picture each time
         glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, 61, 37, GL_RGBA, GL_UNSIGNED_BYTE, colours.data());
@@ -150,7 +150,7 @@ TEST_F(DamageTest, DrawsWhatAWholeFrameWouldShow) {
             ASSERT_EQ(got[i], expected[i]) << what << ", pixel " << i % static_cast<std::size_t>(all.right) << ", row "
                                            << i / static_cast<std::size_t>(all.right) << " from below";
     };
-    Shown shown;
+    ShownPanels shown;
     for (int i = 0; i < 4; ++i) compare(shown, "nothing changes");
     for (shown.counter = 9; shown.counter < 12; ++shown.counter) compare(shown, "a text changes");
     shown.dialog = true;

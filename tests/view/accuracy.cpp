@@ -20,8 +20,6 @@ using namespace lueur;
 
 namespace {
 
-const std::atomic<bool> never{false};
-
 struct Errors {
     double rms = 0, median = 0, worst_point = 0;
     int counted = 0;
@@ -57,9 +55,11 @@ TEST(Accuracy, CornellBoxAgainstTracedPaths) {
     ASSERT_TRUE(solution.status().settled);
     const auto points = surface_points(solution, 1000, 1);
     // 4,096 paths leave about 1 % noise at a point, which counts against us.
-    const auto truth = measure_points(solution, points, {MeasureAt::reference, 4096, 9}, never);
-    const Errors field = relative_errors(measure_points(solution, points, {MeasureAt::field, 0, 1}, never), truth);
-    const Errors gather = relative_errors(measure_points(solution, points, {MeasureAt::gather, 1024, 1}, never), truth);
+    const auto truth = measure_points(solution, points, {MeasureAt::reference, 4096, 9}, test::never);
+    const Errors field =
+        relative_errors(measure_points(solution, points, {MeasureAt::field, 0, 1}, test::never), truth);
+    const Errors gather =
+        relative_errors(measure_points(solution, points, {MeasureAt::gather, 1024, 1}, test::never), truth);
     RecordProperty("field_rms_percent", std::to_string(100 * field.rms));
     printf("Cornell box, %d points: field %.2f %% RMS, %.2f %% median, %.0f %% worst; gathering %.2f %% RMS, %.2f %% "
            "median\n",
@@ -85,7 +85,7 @@ TEST(Accuracy, ContinuousCubeAgreesWithPathsAndNotWithOneElementAWall) {
         for (int k = 0; k < 12; ++k) floor.push_back({{(i + 0.5) / 12, 0, (k + 0.5) / 12}, {0, 1, 0}});
     const auto mean = [&](const MeasureParams& params) {
         double sum = 0;
-        for (const Irradiance& h : measure_points(solution, floor, params, never))
+        for (const Irradiance& h : measure_points(solution, floor, params, test::never))
             sum += h.irradiance_w_m2 / double(floor.size());
         return sum;
     };
@@ -100,14 +100,14 @@ TEST(PathTracer, Furnace) {
     const Solution solution = test::solved(test::furnace(0.5));
     const std::vector<MeasurePoint> points{
         {{0.5, 0, 0.5}, {0, 1, 0}}, {{0.1, 0, 0.05}, {0, 1, 0}}, {{1, 0.3, 0.6}, {-1, 0, 0}}};
-    for (const Irradiance& h : measure_points(solution, points, {MeasureAt::reference, 20000, 1}, never)) {
+    for (const Irradiance& h : measure_points(solution, points, {MeasureAt::reference, 20000, 1}, test::never)) {
         EXPECT_NEAR(h.irradiance_w_m2, 2, 0.04);
         EXPECT_GT(h.standard_error_percent, 0);
         EXPECT_NEAR(h.irradiance_w_m2, 2, 4 * 2 * h.standard_error_percent / 100);
     }
-    for (const Irradiance& h : measure_points(solution, points, {MeasureAt::gather, 256, 1}, never))
+    for (const Irradiance& h : measure_points(solution, points, {MeasureAt::gather, 256, 1}, test::never))
         EXPECT_NEAR(h.irradiance_w_m2, 2, 0.002);
-    for (const Irradiance& h : measure_points(solution, points, {MeasureAt::field, 0, 1}, never))
+    for (const Irradiance& h : measure_points(solution, points, {MeasureAt::field, 0, 1}, test::never))
         EXPECT_NEAR(h.irradiance_w_m2, 2, 0.002);
 }
 
@@ -115,7 +115,7 @@ TEST(Measure, OffTheSurfaceTheFieldIsNotANumber) {
     const Solution solution = test::solved(test::furnace(0.5));
     const auto h =
         measure_points(solution, std::vector<MeasurePoint>{{{0.5, 0.5, 0.5}, {0, 1, 0}}, {{0.5, 0, 0.5}, {0, -1, 0}}},
-                       {MeasureAt::field, 0, 1}, never);
+                       {MeasureAt::field, 0, 1}, test::never);
     EXPECT_TRUE(std::isnan(h[0].illuminance_lx));
     EXPECT_TRUE(std::isnan(h[1].illuminance_lx));
 }
@@ -132,11 +132,11 @@ TEST(Picture, FurnaceIsOneColour) {
     Camera camera;
     camera.position = {0.3, 0.4, 0.2};
     camera.target = {0.9, 0.6, 0.8};
-    const RadianceImage image = render_picture(view, camera, {64, 40, 2}, PictureQuantity::colour, never);
+    const RadianceImage image = render_picture(view, camera, {64, 40, 2}, PictureQuantity::colour, test::never);
     ASSERT_EQ(image.xyz.size(), 64u * 40u);
     // L = B / pi, B = 2 W/m2 of a flat spectrum: 2 * 683 * 106.857 / 400 lm/m2.
     for (const glm::vec3& xyz : image.xyz) EXPECT_NEAR(xyz.y / (2 * 683 * 106.857 / 400 / M_PI), 1, 2e-3);
-    const RadianceImage lux = render_picture(view, camera, {8, 5, 1}, PictureQuantity::illuminance, never);
+    const RadianceImage lux = render_picture(view, camera, {8, 5, 1}, PictureQuantity::illuminance, test::never);
     for (const glm::vec3& xyz : lux.xyz) EXPECT_NEAR(xyz.y / (2 * 683 * 106.857 / 400), 1, 2e-3);
     const std::atomic<bool> always{true};
     EXPECT_TRUE(render_picture(view, camera, {64, 40, 2}, PictureQuantity::colour, always).xyz.empty());
@@ -199,7 +199,9 @@ TEST(Picture, TexelsReflectWhatArrivesAtEveryWavelength) {
                 expected += wavelengths.xyz_weight[k] * rho[k] * double(field->irradiance[v][k]) / M_PI;
             const Xyz seen(field->reflected_by_texel[v] * glm::vec3(texel));
             EXPECT_LT(glm::distance(seen, expected), 1e-4 * glm::length(Xyz(field->reflected_xyz[v])));
-            if (texel == mean) EXPECT_LT(glm::distance(seen, Xyz(field->reflected_xyz[v])), 1e-4 * glm::length(seen));
+            if (texel == mean) {
+                EXPECT_LT(glm::distance(seen, Xyz(field->reflected_xyz[v])), 1e-4 * glm::length(seen));
+            }
         }
     }
 }
@@ -239,8 +241,8 @@ TEST(Picture, SpectralPlanesAddUpToThePicture) {
         camera.position = {0.3, 0.4, 0.2};
         camera.target = {0.9, 0.6, 0.8};
         const PictureParams params{16, 10, 1};
-        const RadianceImage image = render_picture(view, camera, params, PictureQuantity::colour, never);
-        const SpectralImage spectral = render_spectral_picture(view, camera, params, never);
+        const RadianceImage image = render_picture(view, camera, params, PictureQuantity::colour, test::never);
+        const SpectralImage spectral = render_spectral_picture(view, camera, params, test::never);
         ASSERT_EQ(spectral.planes.size(), 41u);
         for (std::size_t pixel = 0; pixel < image.xyz.size(); pixel += 7) {
             Xyz xyz(0);
@@ -254,7 +256,8 @@ TEST(Picture, SpectralPlanesAddUpToThePicture) {
     rgb.solve.wavelengths = {WavelengthRule::rgb, 3};
     const Solution solution = test::solved(rgb);
     const FieldView view{solution.scene(), solution.mesh(), solution.world(), solution.field()};
-    EXPECT_TRUE(render_spectral_picture(view, {}, {4, 4, 1}, never).planes.empty()); // three channels are no spectrum
+    EXPECT_TRUE(
+        render_spectral_picture(view, {}, {4, 4, 1}, test::never).planes.empty()); // three channels are no spectrum
 }
 
 TEST(Picture, ABlackMeanUnderATextureShowsBlackNotInfinity) {

@@ -53,11 +53,10 @@ TEST(ErrorEstimate, IsRightInARoom) {
 
 // Stopped before there is any indirect light, the estimate says about how much is missing.
 TEST(ErrorEstimate, SaysWhatIsMissingBeforeTheFirstBounce) {
-    const std::atomic<bool> never{false};
     Solution solution(std::make_shared<const Scene>(test::small_room()));
     while (!solution.world() || solution.state().phase == SolvePhase::sketch ||
            solution.state().phase == SolvePhase::light)
-        solution.step(never);
+        solution.step(test::never);
     ASSERT_FALSE(solution.state().solving);
     const auto field = solution.field();
     const test::ErrorVerdict verdict = test::judge_vertices(*field, test::true_vertices(solution, true, 150, 1024, 22));

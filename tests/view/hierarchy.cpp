@@ -67,8 +67,7 @@ TEST(HierarchicalPicture, NoCrackBetweenLevels) {
 
     // Every pixel is covered, and the light to both sides of every edge is the same on the screen.
     const FieldView view{solution.scene(), solution.mesh(), solution.world(), solution.field()};
-    const std::atomic<bool> never{false};
-    const RadianceImage image = render_picture(view, scene.camera, {160, 120, 1}, PictureQuantity::colour, never);
+    const RadianceImage image = render_picture(view, scene.camera, {160, 120, 1}, PictureQuantity::colour, test::never);
     float brightest = 0;
     for (const glm::vec3& xyz : image.xyz) brightest = std::max(brightest, xyz.y);
     for (const glm::vec3& xyz : image.xyz) ASSERT_TRUE(std::isfinite(xyz.y) && xyz.y >= 0);

@@ -16,11 +16,9 @@ using namespace lueur;
 
 namespace {
 
-const std::atomic<bool> never{false};
-
 Solution with_world(Scene scene) {
     Solution solution(std::make_shared<const Scene>(std::move(scene)));
-    while (!solution.world()) solution.step(never);
+    while (!solution.world()) solution.step(test::never);
     return solution;
 }
 
@@ -104,7 +102,7 @@ Traced traced_mean(const Solution& solution, int wall, int n, int paths) {
             points.push_back(p);
         }
     Traced traced;
-    for (const Irradiance& h : measure_points(solution, points, {MeasureAt::reference, paths, 11}, never)) {
+    for (const Irradiance& h : measure_points(solution, points, {MeasureAt::reference, paths, 11}, test::never)) {
         traced.mean += h.irradiance_w_m2 / double(points.size());
         const double e = h.irradiance_w_m2 * h.standard_error_percent / 100 / double(points.size());
         traced.standard_error += e * e;
@@ -142,7 +140,7 @@ TEST(Reference, BoundedVarianceWhereALampTouchesAWall) {
     const PathLights lights = make_path_lights(solution.state());
     for (const glm::vec3 p : {glm::vec3(0.5f, 0, 0.5f), {0.001f, 0, 0.5f}, {0.001f, 0, 0.001f}, {1e-5f, 0, 1e-5f}}) {
         const PathEstimate e =
-            trace_irradiance(solution.state(), lights, p + glm::vec3(0, 1e-6f, 0), {0, 1, 0}, 4096, 5, never);
+            trace_irradiance(solution.state(), lights, p + glm::vec3(0, 1e-6f, 0), {0, 1, 0}, 4096, 5, test::never);
         const double flat = xyz_from_channels(*solution.state().wavelengths,
                                               std::span<const double>(solution.state().luminaire_exitance[0]))
                                 .y;
@@ -162,7 +160,7 @@ TEST(Reference, FluxBalance) {
     double area = 0;
     for (const float a : solution.state().mesh.coarse_area) area += a;
     double sum = 0, square = 0;
-    const auto traced = measure_points(solution, points, {MeasureAt::reference, 512, 4}, never);
+    const auto traced = measure_points(solution, points, {MeasureAt::reference, 512, 4}, test::never);
     for (const Irradiance& h : traced) sum += h.illuminance_lx, square += h.illuminance_lx * h.illuminance_lx;
     const double n = double(traced.size()), mean = sum / n, spread = std::sqrt((square / n - mean * mean) / n);
     EXPECT_NEAR(area * 0.4 * mean, 3800, 4 * area * 0.4 * spread); // of the choice of points, mostly
@@ -178,7 +176,7 @@ TEST(Reference, StandardErrorIsTheSpread) {
     const int runs = 60;
     for (int run = 0; run < runs; ++run) {
         const PathEstimate e = trace_irradiance(solution.state(), lights, p + glm::vec3(0, 1e-5f, 0), {0, 1, 0}, 256,
-                                                1000 + std::uint32_t(run), never);
+                                                1000 + std::uint32_t(run), test::never);
         sum += e.illuminance, square += e.illuminance * e.illuminance, stated += e.standard_error / runs;
     }
     const double spread = std::sqrt((square - sum * sum / runs) / (runs - 1));
@@ -190,8 +188,8 @@ TEST(Reference, StandardErrorIsTheSpread) {
 TEST(Reference, AgreesWithGathering) {
     const Solution solution = test::solved(test::small_room());
     const auto points = surface_points(solution, 60, 8);
-    const auto traced = measure_points(solution, points, {MeasureAt::reference, 4096, 5}, never),
-               gathered = measure_points(solution, points, {MeasureAt::gather, 2048, 6}, never);
+    const auto traced = measure_points(solution, points, {MeasureAt::reference, 4096, 5}, test::never),
+               gathered = measure_points(solution, points, {MeasureAt::gather, 2048, 6}, test::never);
     double bias = 0, weight = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
         const double e = std::hypot(traced[i].standard_error_percent, gathered[i].standard_error_percent) / 100 + 0.01;
@@ -235,7 +233,7 @@ TEST(ReferencePicture, FurnaceIsOneColourAndKnowsItsError) {
     camera.position = {0.3, 0.4, 0.2};
     camera.target = {0.9, 0.6, 0.8};
     const ReferencePicture picture =
-        trace_picture(solution, camera, {.width = 24, .height = 16, .target_error = 0, .most_passes = 64}, never);
+        trace_picture(solution, camera, {.width = 24, .height = 16, .target_error = 0, .most_passes = 64}, test::never);
     ASSERT_EQ(picture.image.xyz.size(), 24u * 16u);
     EXPECT_EQ(picture.passes, 64u);
     const double exact = 2 * 683 * 106.857 / 400 / M_PI;
@@ -257,10 +255,10 @@ TEST(ReferencePicture, AgreesWithThePictureOfTheField) {
     Camera camera;
     camera.position = {0.3, 1.5, 3.8};
     camera.target = {2, 1, 0.5};
-    const ReferencePicture traced =
-        trace_picture(solution, camera, {.width = 16, .height = 10, .target_error = 0, .most_passes = 256}, never);
+    const ReferencePicture traced = trace_picture(
+        solution, camera, {.width = 16, .height = 10, .target_error = 0, .most_passes = 256}, test::never);
     const FieldView view{solution.scene(), solution.mesh(), solution.world(), solution.field()};
-    const RadianceImage field = render_picture(view, camera, {16, 10, 6}, PictureQuantity::colour, never);
+    const RadianceImage field = render_picture(view, camera, {16, 10, 6}, PictureQuantity::colour, test::never);
     double traced_sum = 0, field_sum = 0;
     int far = 0;
     for (std::size_t i = 0; i < field.xyz.size(); ++i) {
