@@ -170,11 +170,12 @@ struct Model {
 
 // Of indirect light, at the coarse vertices where it is solved and at those that interpolate it.
 std::vector<float> indirect_variance(const State& s, const Light& light) {
-    const std::uint32_t coarse = s.mesh.coarse_vertex_count, count = static_cast<std::uint32_t>(light.total.size());
+    const std::uint32_t coarse =
+                            s.indirect().count < light.total.size() ? s.indirect().count : s.mesh.coarse_vertex_count,
+                        count = static_cast<std::uint32_t>(light.total.size());
     std::vector<float> variance(count, 0);
     if (!s.solving) return variance;
-    std::vector<glm::uvec3> elements;
-    for (std::uint32_t e = 0; e < s.mesh.coarse_element_count; ++e) elements.push_back(s.mesh.nodes[e].vertices);
+    const std::vector<glm::uvec3> elements = elements_of_level(s.mesh, coarse);
     const std::span<const float> value(light.indirect.data(), coarse);
     const std::vector<float> near = neighbour_differences(elements, s.buried, value);
     const std::vector<float> bend = bends(elements, s.mesh, s.buried, value);
@@ -370,7 +371,8 @@ void estimate_error(const State& s, Field& field) {
             if (!s.solving)
                 flux += double(light.area[v]) * light.reflected[v];
             else if (v < unshot.size())
-                flux += double(s.coarse_area[v]) * unshot[v];
+                flux +=
+                    double(unshot.size() == s.indirect_area.size() ? s.indirect_area[v] : s.coarse_area[v]) * unshot[v];
         }
         missing = light.total_area > 0 ? light.caught * flux / light.total_area / (1 - rho) : 0;
     }
