@@ -126,6 +126,10 @@ void make_leaves_coarse(Mesh& mesh, float patch_size) {
     std::vector<MeshNode> leaves;
     std::vector<std::uint32_t> surface;
     std::vector<std::uint32_t> path;
+    auto tree = std::make_shared<TriangleTree>();
+    tree->count = triangles;
+    for (const MeshNode& node : mesh.nodes)
+        tree->nodes.push_back({node.vertices, node.children, no_index, node.split_edge});
     for (std::uint32_t start = 0; start < triangles;
          ++start) { // depth first: neighbours in space are neighbours in number
         path.push_back(start);
@@ -145,9 +149,11 @@ void make_leaves_coarse(Mesh& mesh, float patch_size) {
             mesh.coarse_patch.push_back(patch_of_root[root[n]]);
             surface.push_back(mesh.coarse_surface[node.coarse]);
             mesh.coarse_triangle.push_back(start);
+            tree->nodes[n].element = static_cast<std::uint32_t>(leaves.size());
             leaves.push_back({node.vertices, static_cast<std::uint32_t>(leaves.size())});
         }
     }
+    mesh.triangles = std::move(tree);
     mesh.nodes = std::move(leaves);
     mesh.coarse_surface = std::move(surface);
     mesh.coarse_back.assign(mesh.nodes.size(), 0);
@@ -229,24 +235,34 @@ Mesh make_mesh(const Scene& scene, const MeshParams& params) {
 
 namespace {
 
+// One step down: the weights in the child that holds the point, and whether it is the second one.
+bool step_down(int k, glm::vec3& w) {
+    const float a = w[k], b = w[(k + 1) % 3], c = w[(k + 2) % 3];
+    if (a >= b) {
+        w = {a - b, 2 * b, c}; // children are {a, middle, c} and {middle, b, c}
+        return false;
+    }
+    w = {2 * a, b - a, c};
+    return true;
+}
+
 Located descend(const Mesh& mesh, std::uint32_t coarse_element, float b1, float b2, std::uint32_t nodes) {
     std::uint32_t n = coarse_element;
     glm::vec3 w(1 - b1 - b2, b1, b2);
-    while (mesh.nodes[n].children < nodes) { // no_index is larger than any
-        const int k = mesh.nodes[n].split_edge;
-        const float a = w[k], b = w[(k + 1) % 3], c = w[(k + 2) % 3];
-        n = mesh.nodes[n].children;
-        if (a >= b) {
-            w = {a - b, 2 * b, c}; // children are {a, middle, c} and {middle, b, c}
-        } else {
-            ++n;
-            w = {2 * a, b - a, c};
-        }
-    }
+    while (mesh.nodes[n].children < nodes) // no_index is larger than any
+        n = mesh.nodes[n].children + step_down(mesh.nodes[n].split_edge, w);
     return {mesh.nodes[n].vertices, w};
 }
 
 } // namespace
+
+std::uint32_t coarse_element_at(const TriangleTree& tree, std::uint32_t triangle, float& b1, float& b2) {
+    std::uint32_t n = triangle;
+    glm::vec3 w(1 - b1 - b2, b1, b2);
+    while (tree.nodes[n].children != no_index) n = tree.nodes[n].children + step_down(tree.nodes[n].split_edge, w);
+    b1 = w.y, b2 = w.z;
+    return tree.nodes[n].element;
+}
 
 Located locate(const Mesh& mesh, std::uint32_t coarse_element, float b1, float b2) {
     return descend(mesh, coarse_element, b1, b2, no_index);

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -37,6 +38,22 @@ struct MeshNode {
     std::uint8_t split_edge = 0;       // edge k runs from vertex k to vertex k+1
 };
 
+// The scene's triangles and how they were cut into coarse elements: rays meet few large triangles and then go down to
+// the element. The first `count` nodes are the triangles themselves.
+struct TriangleTree {
+    struct Node {
+        glm::uvec3 vertices;               // of the mesh
+        std::uint32_t children = no_index; // as MeshNode's; no_index: a leaf
+        std::uint32_t element = no_index;  // of a leaf: the coarse element
+        std::uint8_t split_edge = 0;
+    };
+    std::vector<Node> nodes;
+    std::uint32_t count = 0;
+};
+
+// Goes down from a triangle to the coarse element under a point of it; b1, b2 become the element's.
+std::uint32_t coarse_element_at(const TriangleTree& tree, std::uint32_t triangle, float& b1, float& b2);
+
 struct Mesh {
     std::vector<MeshVertex> vertices;
     std::vector<MeshNode> nodes;
@@ -54,6 +71,7 @@ struct Mesh {
         coarse_twin;                // the element of the other side, vertices 2 and 3 swapped; no_index: one-sided
     std::vector<float> coarse_area; // m^2
     std::vector<std::uint32_t> coarse_triangle; // which of the scene's triangles (degenerate ones not counted) it is of
+    std::shared_ptr<const TriangleTree> triangles;
 
     // Patches, which shoot as one: neighbouring coarse elements cut from the same triangle (elements receive, larger
     // patches shoot: Cohen, Greenberg, Immel & Brock 1986).

@@ -7,10 +7,10 @@ namespace lueur {
 struct World::Embree {
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
-    std::vector<std::uint32_t> element; // of each Embree triangle: a coarse element
-    std::vector<std::uint32_t> twin;    // its other side
-    std::vector<std::uint32_t> surface;
-    std::vector<glm::vec3> normal; // not unit; towards the lit side
+    std::shared_ptr<const TriangleTree> tree; // Embree's triangles are the scene's
+    std::vector<std::uint32_t> surface;       // of each triangle
+    std::vector<glm::vec3> normal;            // of each triangle; not unit; towards the lit side
+    std::vector<std::uint32_t> twin;          // of each coarse element: its other side
     float epsilon = 1e-4f;
 
     ~Embree() {
@@ -27,10 +27,8 @@ World::World(const Mesh& mesh)
     rtcSetSceneFlags(e.scene, RTC_SCENE_FLAG_ROBUST); // no ray slips between two triangles of a wall
     rtcSetSceneBuildQuality(e.scene, RTC_BUILD_QUALITY_MEDIUM);
 
-    // One triangle stands for both sides.
-    for (std::uint32_t n = 0; n < mesh.coarse_element_count; ++n)
-        if (!mesh.coarse_back[n]) e.element.push_back(n);
-    if (!e.element.empty()) {
+    e.tree = mesh.triangles;
+    if (e.tree && e.tree->count > 0) { // one triangle stands for both sides
         RTCGeometry geometry = rtcNewGeometry(e.device, RTC_GEOMETRY_TYPE_TRIANGLE);
         auto* positions = static_cast<float*>(rtcSetNewGeometryBuffer(
             geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.coarse_vertex_count));
@@ -41,15 +39,17 @@ World::World(const Mesh& mesh)
             low = glm::min(low, p), high = glm::max(high, p);
         }
         auto* triangles = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
-            geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), e.element.size()));
-        for (std::size_t t = 0; t < e.element.size(); ++t) {
-            const glm::uvec3 v = mesh.nodes[e.element[t]].vertices;
+            geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), e.tree->count));
+        for (std::uint32_t t = 0; t < e.tree->count; ++t) {
+            const glm::uvec3 v = e.tree->nodes[t].vertices;
             for (int k = 0; k < 3; ++k) triangles[3 * t + k] = v[k];
             const glm::vec3 a = mesh.vertices[v.x].position;
             e.normal.push_back(glm::cross(mesh.vertices[v.y].position - a, mesh.vertices[v.z].position - a));
-            e.twin.push_back(mesh.coarse_twin[e.element[t]]);
-            e.surface.push_back(mesh.coarse_surface[e.element[t]]);
         }
+        e.twin = mesh.coarse_twin;
+        e.surface.resize(e.tree->count);
+        for (std::uint32_t n = 0; n < mesh.coarse_triangle.size(); ++n)
+            e.surface[mesh.coarse_triangle[n]] = mesh.coarse_surface[n];
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(e.scene, geometry);
         rtcReleaseGeometry(geometry);
@@ -83,10 +83,11 @@ Hit World::closest(const Ray& ray) const {
     hit.t = query.ray.tfar;
     hit.surface = embree_->surface[t];
     hit.b1 = query.hit.u, hit.b2 = query.hit.v;
+    const std::uint32_t element = coarse_element_at(*embree_->tree, t, hit.b1, hit.b2);
     if (glm::dot(embree_->normal[t], ray.direction) <= 0) {
-        hit.element = embree_->element[t];
-    } else if (embree_->twin[t] != no_index) {
-        hit.element = embree_->twin[t];
+        hit.element = element;
+    } else if (embree_->twin[element] != no_index) {
+        hit.element = embree_->twin[element];
         std::swap(hit.b1, hit.b2);
     } else {
         hit.back_face = true;

@@ -1,6 +1,7 @@
 // The scene as rays see it: the only code that sees Embree.
 //
-// Built on the coarse elements of a mesh. Immutable after make_world; all queries may run from any number of threads.
+// Built on the triangles of the scene; what is hit is told as a coarse element of the mesh. Immutable after make_world;
+// all queries may run from any number of threads.
 #pragma once
 
 #include <cstdint>
