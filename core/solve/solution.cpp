@@ -8,6 +8,7 @@
 
 #include "core/scene/solver_words.h"
 #include "core/solve/choose_solver.h"
+#include "core/solve/settled_words.h"
 #include "core/solve/solution_steps.h"
 #include "core/solve/traced_field.h"
 
@@ -65,6 +66,10 @@ void forget_other_solvers(State& s) {
         s.hierarchy.reset();
         s.hierarchy_view.reset();
     }
+}
+
+void add_words(std::string& message, const std::string& words) {
+    if (!words.empty()) message += (message.empty() ? "" : "; ") + words;
 }
 
 } // namespace
@@ -213,7 +218,10 @@ bool Solution::step(const std::atomic<bool>& cancel, bool one_shot) {
         s.edit_open = false;
         s.status.last_edit_seconds = s.status.seconds;
     }
-    if (s.phase == SolvePhase::settled) take_stock();
+    if (s.phase == SolvePhase::settled) {
+        take_stock();
+        if (s.stock) add_words(s.status.message, settled_words(s, *s.stock));
+    }
     return s.phase != SolvePhase::settled && s.phase != SolvePhase::failed;
 }
 

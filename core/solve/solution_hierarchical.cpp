@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/solve/least_absorbed.h"
 #include "core/solve/restriction.h"
 #include "core/solve/solution_steps.h"
 
@@ -124,7 +125,7 @@ void report(State& s) {
     s.status.sweeps = h.sweeps();
     s.status.residual = h.residual();
     s.status.error_bound = h.error_bound();
-    const double absorbed = std::max(1e-3, 1 - mean_luminous_reflectance(s));
+    const double absorbed = std::max(least_absorbed, 1 - mean_luminous_reflectance(s));
     s.status.unshot_share = std::min(1.0, h.residual() / absorbed);
     const double direct = s.direct_light_apart() ? s.direct->misfit() : 0;
     s.status.estimated_error = std::min(1.0, std::hypot(h.estimated_error(), direct));
@@ -160,6 +161,7 @@ void step_final_gather(State& s, const std::atomic<bool>& cancel) {
 } // namespace
 
 void start_hierarchical(State& s, bool same_sources) {
+    if (absorbs_nothing(s)) return fail(s, no_finite_solution);
     if (s.direct_light_apart() && !s.refined) {
         s.phase = SolvePhase::refine;
         return;
@@ -201,7 +203,6 @@ void step_hierarchical(State& s, const std::atomic<bool>& cancel) {
     const std::uint64_t rays = h.rays();
     const std::uint32_t sweeps = h.sweeps();
     h.step(cancel);
-    if (h.sweeps() > 0 && sweeps == 0 && h.absorbs_nothing()) return fail(s, no_finite_solution);
     s.status.rays += h.rays() - rays;
     if (!h.failure().empty()) return fail(s, h.failure());
     report(s);

@@ -23,6 +23,12 @@ namespace lueur {
 
 struct TracedField; // traced_field.h
 
+// Faces that lie in the plane of another, lit from the same side: which of the two is seen is left to rounding.
+struct Overlap {
+    double area = 0; // m^2
+    std::uint32_t surface = no_index, other = no_index;
+};
+
 // Mesh to refine make what all solvers stand on; transport is a solver's own (rays, a matrix, links), solve its sweeps
 // or shots. A solver may begin before refine, which gives it a first picture early.
 enum class SolvePhase { mesh, sketch, light, burial, refine, transport, solve, settled, failed };
@@ -41,6 +47,8 @@ struct Solution::State {
     std::unique_ptr<DirectTransport> direct;
     std::vector<glm::vec3> origins;   // of coarse vertices
     std::vector<std::uint8_t> buried; // coarse vertices
+    Surroundings around;              // of coarse vertices
+    Overlap overlap;
     Receivers receivers;              // who gathers for the coarse vertices
     std::vector<GatherPass> passes;
     bool pass_open = false;          // the last pass is being traced
