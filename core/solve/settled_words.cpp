@@ -26,10 +26,15 @@ std::string name_of_surface(const State& s, std::uint32_t surface) {
 }
 
 std::string words_of_overlap(const State& s) {
+    double area = 0;
+    for (const float a : s.mesh.coarse_area) area += double(a);
+    if (s.overlap.surface == no_index || s.overlap.area < overlap_share * area) return {};
+    const std::string both = fmt::format("\"{}\" and \"{}\" lie in one plane", name_of_surface(s, s.overlap.surface),
+                                         name_of_surface(s, s.overlap.other));
     switch (s.solver()) {
     case SolverKind::automatic:
     case SolverKind::gathering:
-    case SolverKind::reference: // rays meet one of the two
+    case SolverKind::reference: // a ray meets one of the two, and only that one lights others
         return {};
     case SolverKind::shooting:
     case SolverKind::overshooting:
@@ -38,15 +43,12 @@ std::string words_of_overlap(const State& s) {
     case SolverKind::hierarchical:
         break;
     }
-    double area = 0;
-    for (const float a : s.mesh.coarse_area) area += double(a);
-    if (s.overlap.surface == no_index || s.overlap.area < overlap_share * area) return {};
-    return fmt::format("\"{}\" and \"{}\" lie in one plane and both shine: move one, or use the gathering solver",
-                       name_of_surface(s, s.overlap.surface), name_of_surface(s, s.overlap.other));
+    return both + " and both shine: move one, or use the gathering solver";
 }
 
 std::string words_of_balance(const State& s, const Field& field, const FluxBalance& balance) {
     const double lost = balance.lost_share();
+    if (s.overlap.surface != no_index) return {}; // light is counted on both faces
     if (std::abs(lost) <= 2 * field.scene_error + worth_a_word + balance.unsure / balance.emitted) return {};
     const std::string how_much = lost > 0 ? fmt::format("{:.0f} % of the light is lost", 100 * lost)
                                           : fmt::format("{:.0f} % more light than there is", -100 * lost);
@@ -168,8 +170,8 @@ std::string settled_words(const State& s, const Field& field) {
         rounding > field.scene_error && rounding > 1e-3)
         return fmt::format("light is reflected {:.2g} times here: single precision leaves an error of about {:.1g} %",
                            balance.arriving / balance.emitted, 100 * rounding);
-    if (std::string words = words_of_gaps(s); !words.empty()) return words;
-    return words_of_balance(s, field, balance);
+    if (std::string words = words_of_balance(s, field, balance); !words.empty()) return words;
+    return words_of_gaps(s);
 }
 
 } // namespace lueur

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "core/solve/least_absorbed.h"
 #include "core/solve/restriction.h"
 #include "core/solve/solution_steps.h"
@@ -132,19 +134,32 @@ void report(State& s) {
     s.status.progress = h.progress();
 }
 
-// The links are made and solved over. What remains is what the vertices get of them themselves.
+// The links are made and solved over. What remains is what the vertices get of them themselves. How many factors that
+// takes is counted before the memory is, once for the links there are.
 void step_final_gather(State& s, const std::atomic<bool>& cancel) {
-    constexpr std::size_t most_factors = 40'000'000; // 320 MB
     if (!s.direct_light_apart()) return settle(s);
-    if (!s.final_gather || s.final_round != s.hierarchy->rounds()) {
-        s.vertex_origins = ray_origins(s.mesh, s.world->epsilon());
-        s.final_gather = std::make_unique<FinalGather>(*s.hierarchy, s.mesh, s.vertex_origins, s.leaf_mesh->readings(),
-                                                       s.all_buried());
+    if (s.final_round != s.hierarchy->rounds()) {
+        s.final_gather.reset();
+        s.final_count = {};
+        s.final_counted = s.final_done = false;
+        s.status.final_gather_bytes = 0;
         s.final_round = s.hierarchy->rounds();
-        s.final_done = s.final_gather->factors() > most_factors;
-        if (s.final_done) s.final_gather.reset();
+    }
+    if (!s.final_counted) {
+        s.final_counted =
+            FinalGather::count_factors(*s.hierarchy, s.leaf_mesh->readings(), s.all_buried(), cancel, s.final_count);
+        if (!s.final_counted) return;
+        s.status.final_gather_bytes = FinalGather::bytes(s.final_count.factors);
+        s.final_done = s.final_count.factors > FinalGather::most_factors;
+        return; // the status says what it will take before it is taken
     }
     if (!s.final_done) {
+        if (!s.final_gather) {
+            s.vertex_origins = ray_origins(s.mesh, s.world->epsilon());
+            s.final_gather = std::make_unique<FinalGather>(s.mesh, s.vertex_origins, s.leaf_mesh->readings(),
+                                                           s.all_buried(), s.final_count.factors);
+            return;
+        }
         const std::uint64_t rays = s.final_gather->rays();
         s.final_done = s.final_gather->trace(*s.world, *s.hierarchy, cancel);
         s.status.rays += s.final_gather->rays() - rays;
@@ -154,6 +169,11 @@ void step_final_gather(State& s, const std::atomic<bool>& cancel) {
     if (s.final_gather) {
         s.indirect_irradiance = s.final_gather->irradiance(*s.hierarchy, s.channels());
         fill_buried(s.mesh.elements, s.all_buried(), s.indirect_irradiance);
+    } else if (s.status.message.empty()) {
+        s.status.message = fmt::format(
+            "the last gather at the vertices would take {}, and {} are allowed: shadows of indirect light "
+            "are as coarse as the links",
+            bytes_text(s.status.final_gather_bytes), bytes_text(FinalGather::bytes(FinalGather::most_factors)));
     }
     settle(s);
 }
@@ -179,6 +199,7 @@ void start_hierarchical(State& s, bool same_sources) {
         s.hierarchy = std::make_unique<Hierarchy>(*s.scene, *s.world, settings, std::move(direct));
         if (!s.hierarchy->failure().empty()) return fail(s, s.hierarchy->failure());
         s.final_gather.reset();
+        s.final_round = 0;
         s.leaf_mesh.reset();
         s.shown_round = 0;
         s.show_leaves = State::ShowLeaves::no;

@@ -49,7 +49,7 @@ struct Solution::State {
     std::vector<std::uint8_t> buried; // coarse vertices
     Surroundings around;              // of coarse vertices
     Overlap overlap;
-    Receivers receivers;              // who gathers for the coarse vertices
+    Receivers receivers; // who gathers for the coarse vertices
     std::vector<GatherPass> passes;
     bool pass_open = false;          // the last pass is being traced
     std::uint32_t passes_wanted = 1; // from the geometry alone: see passes_for
@@ -84,7 +84,9 @@ struct Solution::State {
     std::uint32_t shown_round = 0;
     std::unique_ptr<FinalGather> final_gather;           // at the mesh's vertices, of the links of this round:
     std::uint32_t final_round = 0;                       //
-    bool final_done = false;                             // all its rays are traced
+    FinalGather::Count final_count;                      //
+    bool final_counted = false;                          // all its factors
+    bool final_done = false;                             // all its rays are traced, or it would be too large
     std::vector<glm::vec3> vertex_origins;               // of all vertices of the mesh
     std::shared_ptr<const HierarchyView> hierarchy_view; // as of the last round of refinement
     std::unique_ptr<TracedField> traced;                 // of the reference solver

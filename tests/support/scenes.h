@@ -31,11 +31,13 @@ public:
         return object;
     }
     // Axis-aligned box; inward: a room, each face its own object "name floor", ...; else one solid object.
+    // without: the number of a face that is left out, or -1.
     std::array<ObjectIndex, 6> room(const std::string& name, std::array<MaterialIndex, 6> materials, glm::vec3 low,
-                                    glm::vec3 high) {
+                                    glm::vec3 high, int without = -1) {
         std::array<ObjectIndex, 6> faces{};
         static const char* names[6] = {"floor", "ceiling", "left", "right", "front", "back"};
-        for (int f = 0; f < 6; ++f) faces[f] = polygon(name + " " + names[f], materials[f], face(f, low, high, true));
+        for (int f = 0; f < 6; ++f)
+            if (f != without) faces[f] = polygon(name + " " + names[f], materials[f], face(f, low, high, true));
         return faces;
     }
     ObjectIndex block(const std::string& name, MaterialIndex material, glm::vec3 low, glm::vec3 high) {
