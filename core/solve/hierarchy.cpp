@@ -68,7 +68,7 @@ bool Hierarchy::step(const std::atomic<bool>& cancel) {
             break;
         case Phase::sweep:
             // One a step: what is shown between rounds, and read by the next, must not depend on the time.
-            sweep();
+            if (gather(cancel)) sweep();
             return phase_ != Phase::settled && phase_ != Phase::failed;
         case Phase::settled:
         case Phase::failed:

@@ -40,6 +40,9 @@ struct HierarchySettings {
     std::uint32_t most_links = 6'000'000, most_elements = 400'000;
 };
 
+// The tolerance at which the irradiance should be off by about target_error; how that follows stands with it.
+double tolerance_for(RefinementOracle oracle, double target_error);
+
 // Sources and paints in channels.
 struct HierarchySources {
     std::vector<std::uint32_t> surface_material;
@@ -92,6 +95,7 @@ public:
     float scale(std::uint32_t leaf) const { return scale_[leaf]; } // that makes its row sum to 1 where it should
     const ChannelField& radiosity() const { return b_; }           // of all nodes: mean over their area
     float brightness(std::uint32_t node) const { return brightness_[node]; } // of B, weighted
+    bool limited() const { return limited_; }                                // by most_links or most_elements
     std::uint32_t rows_above_one() const { return rows_above_one_; }         // leaves whose rows had to be scaled down
     bool buried(std::uint32_t node) const { return points_[node].count == 0; }
     float error_at(std::uint32_t leaf) const { return leaf_error_[leaf]; } // weighted irradiance
@@ -119,6 +123,7 @@ private:
     void apply(const Work& work);
     void cut(std::uint32_t node);
     void end_round();
+    bool gather(const std::atomic<bool>& cancel); // a slice of it; true at the end
     void sweep();
     void resize_values();
     void set_leaf_source(std::uint32_t leaf);
@@ -145,6 +150,7 @@ private:
     std::uint32_t looked_ = 0; // nodes that have points
     std::vector<Work> work_;
     std::size_t work_cursor_ = 0;
+    std::uint32_t gather_cursor_ = 0;
     std::vector<Link> links_, kept_;
     std::vector<std::uint32_t> first_link_; // of each node in links_, one more than nodes
     bool cut_any_ = false, limited_ = false, begun_ = false;

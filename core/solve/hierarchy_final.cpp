@@ -116,7 +116,7 @@ void FinalGather::look_from(const World& world, const Hierarchy& hierarchy, std:
                 std::array<glm::dvec3, 4> polygon;
                 for (std::size_t k = 0; k < corners; ++k) polygon[k] = tree.vertices[s.corners[k]];
                 f = polygon_form_factor(p, normal, {polygon.data(), corners}) * s.live_share;
-                if (all > 0) f *= visible / all;
+                f *= all > 0 ? visible / all : visible_corners(world, tree, p, normal, source_[l], rays);
             }
         }
         factor_[l] = static_cast<float>(f);

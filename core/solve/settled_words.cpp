@@ -1,12 +1,14 @@
 #include "core/solve/settled_words.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numbers>
 
 #include <fmt/format.h>
 
 #include "core/solve/solution_steps.h"
+#include "core/transport/time_slice.h"
 
 namespace lueur {
 
@@ -14,7 +16,7 @@ namespace {
 
 using State = Solution::State;
 
-constexpr double worth_a_word = 0.02;     // of the light, beyond twice the estimated error
+constexpr double worth_a_word = 0.015;    // of the light, beyond twice the estimated error
 constexpr double much_on_backs = 0.1;     // of the light
 constexpr double overlap_share = 1e-3;    // of all area
 constexpr double gap_share = 0.05;        // of all area
@@ -134,10 +136,19 @@ FluxBalance flux_balance(const State& s, const Field& field) {
     return balance;
 }
 
-Overlap find_overlap(const Mesh& mesh, const World& world, const std::vector<std::uint8_t>& buried) {
-    Overlap overlap;
+bool find_overlap(const Mesh& mesh, const World& world, const std::vector<std::uint8_t>& buried,
+                  const std::atomic<bool>& cancel, std::uint32_t& cursor, Overlap& overlap) {
+    constexpr std::uint32_t elements_a_look = 256; // at the clock
+    const auto start = std::chrono::steady_clock::now();
     const float lift = 4 * world.epsilon();
-    for (std::uint32_t e = 0; e < mesh.coarse_element_count; ++e) {
+    const std::uint32_t begun = cursor;
+    while (cursor < mesh.coarse_element_count) {
+        if (cursor % elements_a_look == 0 &&
+            (cancel.load(std::memory_order_relaxed) ||
+             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > step_seconds) &&
+            cursor != begun)
+            return false;
+        const std::uint32_t e = cursor++;
         const glm::uvec3 v = mesh.nodes[e].vertices;
         if (buried[v.x] && buried[v.y] && buried[v.z]) continue;
         const glm::vec3 a = mesh.vertices[v.x].position, b = mesh.vertices[v.y].position,
@@ -152,7 +163,7 @@ Overlap find_overlap(const Mesh& mesh, const World& world, const std::vector<std
         overlap.area += double(mesh.coarse_area[e]);
         overlap.surface = mesh.coarse_surface[e], overlap.other = mesh.coarse_surface[hit.element];
     }
-    return overlap;
+    return true;
 }
 
 std::string settled_words(const State& s, const Field& field) {
@@ -170,6 +181,9 @@ std::string settled_words(const State& s, const Field& field) {
         rounding > field.scene_error && rounding > 1e-3)
         return fmt::format("light is reflected {:.2g} times here: single precision leaves an error of about {:.1g} %",
                            balance.arriving / balance.emitted, 100 * rounding);
+    if (s.solver() == SolverKind::hierarchical && s.hierarchy && s.hierarchy->limited())
+        return fmt::format("{} links are the most that are kept: finer ones would be needed for the target",
+                           s.hierarchy->link_count());
     if (std::string words = words_of_balance(s, field, balance); !words.empty()) return words;
     return words_of_gaps(s);
 }

@@ -2,6 +2,7 @@
 // backs, that was never sent, or that lies twice in one plane.
 #pragma once
 
+#include <atomic>
 #include <string>
 
 #include "core/solve/solution_state.h"
@@ -23,7 +24,9 @@ struct FluxBalance {
 };
 FluxBalance flux_balance(const Solution::State& state, const Field& field);
 
-Overlap find_overlap(const Mesh& mesh, const World& world, const std::vector<std::uint8_t>& buried);
+// A slice, from coarse element `cursor` on; true at the end.
+bool find_overlap(const Mesh& mesh, const World& world, const std::vector<std::uint8_t>& buried,
+                  const std::atomic<bool>& cancel, std::uint32_t& cursor, Overlap& overlap);
 
 std::string settled_words(const Solution::State& state, const Field& field); // empty: nothing to be said
 

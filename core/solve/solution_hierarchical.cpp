@@ -1,5 +1,6 @@
 // Hierarchical radiosity in a solution: links made and refined, then gathered over, pushed and pulled.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -7,6 +8,7 @@
 #include "core/solve/least_absorbed.h"
 #include "core/solve/restriction.h"
 #include "core/solve/solution_steps.h"
+#include "core/transport/time_slice.h"
 
 namespace lueur {
 
@@ -16,6 +18,12 @@ constexpr std::uint32_t vertices_for_leaves = 40000; // that leaves may add to t
 constexpr double direct_share = 0.5; // of the target error that interpolation of direct light is left with
 
 using State = Solution::State;
+
+// Waits for a step's time at most.
+template <typename T>
+bool is_ready(std::future<T>& future) {
+    return future.wait_for(std::chrono::duration<double>(step_seconds)) == std::future_status::ready;
+}
 
 HierarchySources sources_of(const State& s) {
     HierarchySources sources;
@@ -91,6 +99,14 @@ void step_show_leaves(State& s, const std::atomic<bool>& cancel) {
     const ElementTree& tree = s.hierarchy->tree();
     switch (s.show_leaves) {
     case Part::no:
+        return;
+    case Part::make:
+        if (s.making_leaf_mesh.valid()) {
+            if (!is_ready(s.making_leaf_mesh)) return;
+            s.leaf_mesh = s.making_leaf_mesh.get();
+        }
+        s.leaf_mesh->begin();
+        s.show_leaves = Part::cut;
         return;
     case Part::cut: {
         const auto most = static_cast<std::uint32_t>(std::max<std::size_t>(
@@ -187,7 +203,7 @@ void start_hierarchical(State& s, bool same_sources) {
         return;
     }
     const SolveSettings& solve = s.scene->solve;
-    if (!s.hierarchy || !s.solving) {
+    if ((!s.hierarchy && !s.making_hierarchy.valid()) || !s.solving) {
         HierarchySettings settings;
         settings.oracle = solve.oracle;
         settings.tolerance = solve.link_tolerance;
@@ -196,8 +212,12 @@ void start_hierarchical(State& s, bool same_sources) {
         DirectAt direct;
         if (s.direct_light_apart())
             direct = [&s](glm::vec3 p, glm::vec3 n, float* factors) { direct_at(s, p, n, factors); };
-        s.hierarchy = std::make_unique<Hierarchy>(*s.scene, *s.world, settings, std::move(direct));
-        if (!s.hierarchy->failure().empty()) return fail(s, s.hierarchy->failure());
+        s.hierarchy.reset();
+        s.making_hierarchy = std::async(
+            std::launch::async, [scene = s.scene, world = s.world, settings, direct = std::move(direct)]() mutable {
+                return std::make_unique<Hierarchy>(*scene, *world, settings, std::move(direct));
+            });
+        s.making_leaf_mesh = {};
         s.final_gather.reset();
         s.final_round = 0;
         s.leaf_mesh.reset();
@@ -206,7 +226,7 @@ void start_hierarchical(State& s, bool same_sources) {
         s.indirect_irradiance = ChannelField(s.mesh.coarse_vertex_count, s.channels());
         same_sources = false;
     }
-    if (!same_sources) s.hierarchy->set_sources(sources_of(s));
+    if (!same_sources && s.hierarchy) s.hierarchy->set_sources(sources_of(s)); // else when it is there
     s.solving = true;
     s.status.sweeps = 0;
     s.phase = SolvePhase::solve;
@@ -218,6 +238,12 @@ void make_links(State& s, const std::atomic<bool>&) {
 
 void step_hierarchical(State& s, const std::atomic<bool>& cancel) {
     s.status.stage = SolveStage::solving;
+    if (s.making_hierarchy.valid()) {
+        if (!is_ready(s.making_hierarchy)) return;
+        s.hierarchy = s.making_hierarchy.get();
+        if (!s.hierarchy->failure().empty()) return fail(s, s.hierarchy->failure());
+        s.hierarchy->set_sources(sources_of(s));
+    }
     Hierarchy& h = *s.hierarchy;
     if (s.show_leaves != State::ShowLeaves::no) return step_show_leaves(s, cancel);
     if (h.settled()) return step_final_gather(s, cancel);
@@ -229,9 +255,10 @@ void step_hierarchical(State& s, const std::atomic<bool>& cancel) {
     report(s);
     if (h.sweeps() == sweeps) return;
     if (!h.refining() && h.rounds() != s.shown_round) {
-        if (!s.leaf_mesh) s.leaf_mesh = std::make_unique<LeafMesh>(s.mesh);
-        s.leaf_mesh->begin();
-        s.show_leaves = State::ShowLeaves::cut;
+        if (!s.leaf_mesh)
+            s.making_leaf_mesh =
+                std::async(std::launch::async, [mesh = s.published_mesh] { return std::make_unique<LeafMesh>(*mesh); });
+        s.show_leaves = State::ShowLeaves::make;
     } else if (h.settled()) {
         show_links(s); // other light on the same links
         refresh_values(s);

@@ -49,6 +49,7 @@ struct Solution::State {
     std::vector<std::uint8_t> buried; // coarse vertices
     Surroundings around;              // of coarse vertices
     Overlap overlap;
+    std::uint32_t overlap_cursor = 0;
     Receivers receivers; // who gathers for the coarse vertices
     std::vector<GatherPass> passes;
     bool pass_open = false;          // the last pass is being traced
@@ -78,7 +79,10 @@ struct Solution::State {
     Shooting shooting;
     PatchSolve patch_solve; // Jacobi, Gauss-Seidel, overshooting
     std::unique_ptr<Hierarchy> hierarchy;
-    enum class ShowLeaves { no, cut, light, read, values };
+    // On their way, each on a thread of its own: their trees and tables take longer than a step may.
+    std::future<std::unique_ptr<Hierarchy>> making_hierarchy;
+    std::future<std::unique_ptr<LeafMesh>> making_leaf_mesh;
+    enum class ShowLeaves { no, make, cut, light, read, values };
     ShowLeaves show_leaves = ShowLeaves::no; // which part of it is going on
     std::unique_ptr<LeafMesh> leaf_mesh;     // cuts `mesh`, from the first round on
     std::uint32_t shown_round = 0;

@@ -53,11 +53,12 @@ void step_light(State& s, const std::atomic<bool>& cancel) {
 }
 
 void step_burial(State& s, const std::atomic<bool>& cancel) {
-    if (!run_slice(s.cursor, s.mesh.coarse_vertex_count, 64, cancel, [&](std::uint32_t first, std::uint32_t last) {
+    if (s.cursor < s.mesh.coarse_vertex_count &&
+        !run_slice(s.cursor, s.mesh.coarse_vertex_count, 64, cancel, [&](std::uint32_t first, std::uint32_t last) {
             find_buried(*s.world, s.mesh, s.origins, first, last, s.buried, &s.around);
         }))
         return;
-    s.overlap = find_overlap(s.mesh, *s.world, s.buried);
+    if (!find_overlap(s.mesh, *s.world, s.buried, cancel, s.overlap_cursor, s.overlap)) return;
     s.status.rays += std::uint64_t(s.mesh.coarse_vertex_count) * burial_rays + s.mesh.coarse_element_count;
     s.receivers = make_receivers(*s.scene, s.mesh, s.buried, static_cast<float>(receiver_cell * s.element_size));
     s.status.matrix_patches = matrix_size(s.mesh, s.scene->solve.matrix_memory).patches;

@@ -11,10 +11,11 @@ namespace {
 
 Scene rough(Scene scene, const SolverChoice& choice, double element_size) {
     scene.solve.element_size = element_size;
-    scene.solve.target_error = choice.kind == SolverKind::reference ? 0.15 : 0.1;
+    scene.solve.target_error =
+        choice.kind == SolverKind::reference || choice.oracle != RefinementOracle::error ? 0.2 : 0.1;
     scene.solve.wavelengths = {WavelengthRule::rgb, 3};
     scene.solve.form_factors = FormFactorMethod::hemisphere;
-    scene.solve.form_factor_samples = 24;
+    scene.solve.form_factor_samples = 512;
     return scene;
 }
 
@@ -195,7 +196,9 @@ TEST_P(StabilityGeometry, ALampInAClosedBox) {
                                    const glm::vec3 d = glm::abs(v.position - glm::vec3(1));
                                    return std::max({d.x, d.y, d.z}) > 0.7f;
                                }).flux;
-        EXPECT_LE(outside, 1e-4 * 2000) << choice.name << ": light comes through the box";
+        // A cluster of box and lamp sends its mean radiosity from all its points, within the links' error.
+        const double leak = choice.kind == SolverKind::hierarchical ? 1e-3 : 1e-4;
+        EXPECT_LE(outside, leak * 2000) << choice.name << ": light comes through the box";
         if (two_sided)
             test::expect_right_or_said(solution, choice, test::arriving(solution).flux, 2000, 0.05);
         else
