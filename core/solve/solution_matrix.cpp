@@ -128,11 +128,14 @@ std::string hopeless_shots(const State& s, double enough) {
 void take_shots(State& s, const std::atomic<bool>& cancel, bool one_shot, double enough) {
     MatrixSystem& system = s.patch_solve.system;
     const auto start = std::chrono::steady_clock::now();
+    bool hopeless = false; // when it ends is counted in shots, never in time
     do {
         if (!system.shoot(true)) break;
         ++s.status.shots;
-        s.status.unshot_share = system.unshot_share();
-    } while (!one_shot && missing_share(s) > enough && !cancel.load(std::memory_order_relaxed) &&
+        if (s.status.shots % s.patch_solve.matrix.n != 0) continue;
+        s.patch_solve.history.push_back(system.unshot_share());
+        hopeless = !hopeless_shots(s, enough).empty();
+    } while (!one_shot && system.unshot_share() > enough && !hopeless && !cancel.load(std::memory_order_relaxed) &&
              std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < step_seconds);
     system.refresh();
     const std::uint32_t shooter = system.last_shooter();
@@ -218,7 +221,9 @@ void step_matrix(State& s, const std::atomic<bool>& cancel, bool one_shot) {
     PatchSolve& p = s.patch_solve;
     s.status.stage = SolveStage::solving;
     const bool shots = s.solver() == SolverKind::overshooting;
-    const double enough = (shots ? unshot_of_shots : unshot_of_sweeps) * s.scene->solve.target_error;
+    double enough = (shots ? unshot_of_shots : unshot_of_sweeps) * s.scene->solve.target_error;
+    if (shots) // of the emitted flux: each unit unshot is reflected on, 1 / (1 - rho_ave) times if nothing is lost
+        enough *= std::max(least_absorbed, 1 - mean_luminous_reflectance(s) * mean_lit_share(s));
     switch (s.solver()) {
     case SolverKind::jacobi:
         if (!p.system.jacobi_sweep(cancel)) return;
@@ -246,12 +251,11 @@ void step_matrix(State& s, const std::atomic<bool>& cancel, bool one_shot) {
     const double missing = missing_share(s);
     s.status.estimated_error = std::min(1.0, std::hypot(missing, p.smoothing));
     const bool known = shots || p.system.residual_known();
-    if (known && missing <= enough) return settle(s);
+    if (known && (shots ? s.status.unshot_share : missing) <= enough) return settle(s);
     if (!shots) {
         p.history.push_back(missing);
         if (std::string why = hopeless(s, enough); !why.empty()) return fail(s, std::move(why));
     } else {
-        if (s.status.shots >= (p.history.size() + 1) * p.matrix.n) p.history.push_back(missing);
         if (std::string why = hopeless_shots(s, enough); !why.empty()) return fail(s, std::move(why));
     }
 }

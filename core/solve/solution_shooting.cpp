@@ -79,11 +79,14 @@ void step_shooting(State& s, const std::atomic<bool>& cancel, bool one_shot) {
     const auto start = std::chrono::steady_clock::now();
     const std::uint64_t rays_before = s.shooting.rays();
     const double enough = unshot_part * s.scene->solve.target_error;
+    const double most = most_shots_of_a_patch * s.shooting.patches();
+    // When it ends is counted in shots, never in time.
+    const auto hopeless = [&] { return s.shooting.shots_needed(enough) > most || s.shooting.shots() > most; };
     bool more = true;
     do {
         more = s.shooting.shoot();
-    } while (more && !one_shot && s.shooting.missing_share() > enough && !cancel.load(std::memory_order_relaxed) &&
-             s.shooting.luminaires_shot() == s.direct->emitter_count() &&
+    } while (more && !one_shot && s.shooting.missing_share() > enough && !hopeless() &&
+             !cancel.load(std::memory_order_relaxed) && s.shooting.luminaires_shot() == s.direct->emitter_count() &&
              std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < step_seconds);
     s.status.rays += s.shooting.rays() - rays_before;
     s.status.shots = s.shooting.shots();
@@ -91,11 +94,10 @@ void step_shooting(State& s, const std::atomic<bool>& cancel, bool one_shot) {
     s.status.unshot_share = s.shooting.unshot_share();
     s.status.estimated_error = std::min(1.0, std::hypot(s.shooting.missing_share(), s.direct->misfit()));
     if (!more || s.shooting.missing_share() <= enough) return settle(s);
-    const double most = most_shots_of_a_patch * s.shooting.patches();
-    if (const double needed = s.shooting.shots_needed(enough); needed > most || s.shooting.shots() > most)
+    if (hopeless())
         fail(s, fmt::format("shooting would need about {:.2g} shots, {:.2g} are the limit: a reflectance is too close "
                             "to 1",
-                            std::max(needed, most), most));
+                            std::max(s.shooting.shots_needed(enough), most), most));
 }
 
 } // namespace lueur
