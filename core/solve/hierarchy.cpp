@@ -68,7 +68,7 @@ bool Hierarchy::step(const std::atomic<bool>& cancel) {
             break;
         case Phase::sweep:
             // One a step: what is shown between rounds, and read by the next, must not depend on the time.
-            sweep();
+            if (gather(cancel)) sweep();
             return phase_ != Phase::settled && phase_ != Phase::failed;
         case Phase::settled:
         case Phase::failed:
@@ -237,12 +237,20 @@ Hierarchy::Verdict Hierarchy::by_flux(const Work& work) const {
     return cut_one(work.receiver, work.source, tree_.nodes[work.source].area > tree_.nodes[work.receiver].area);
 }
 
+// What an error dF of a link costs, dF times this. A row that is known to sum to 1 is scaled to it, so that an error of
+// one link is taken from all others: sum dF_s B_s = sum dF_s (B_s - H). A furnace then needs no links to speak of, and
+// a white room none between what is equally bright.
+double Hierarchy::contrast(std::uint32_t receiver, std::uint32_t source) const {
+    const double b = brightness_[source];
+    return tree_.nodes[receiver].closed ? std::abs(b - double(arriving_[receiver])) : b;
+}
+
 Hierarchy::Verdict Hierarchy::by_error(const Work& work) const {
     const ElementNode &r = tree_.nodes[work.receiver], &s = tree_.nodes[work.source];
     if (work.receiver == work.source) return r.is_cluster() ? Verdict::cut_receiver : Verdict::drop;
     if (r.is_cluster() && r.flatness < flat_enough) return Verdict::cut_receiver;
     if (!r.is_cluster() && points_[work.receiver].count == 0 && r.is_leaf()) return Verdict::drop; // inside a solid
-    const double b = brightness_[work.source];
+    const double b = contrast(work.receiver, work.source);
     const double limit = tolerance_ * mean_irradiance_;
     const double weight = std::sqrt(r.live_area() / total_area_);
     // Spheres that touch: four points say little of a cluster that near.

@@ -40,6 +40,9 @@ struct HierarchySettings {
     std::uint32_t most_links = 6'000'000, most_elements = 400'000;
 };
 
+// The tolerance at which the irradiance should be off by about target_error; how that follows stands with it.
+double tolerance_for(RefinementOracle oracle, double target_error);
+
 // Sources and paints in channels.
 struct HierarchySources {
     std::vector<std::uint32_t> surface_material;
@@ -77,7 +80,6 @@ public:
     std::uint32_t rounds() const { return rounds_; } // of refinement
     std::uint64_t rays() const { return rays_; }
     bool refining() const { return phase_ == Phase::look || phase_ == Phase::refine; }
-    bool absorbs_nothing() const; // closed, and every reflectance 1: there is no finite solution
     bool settled() const { return phase_ == Phase::settled; }
     double progress() const;                                    // of the round
     double residual() const { return residual_; }               // change of B in the last sweep / B, worst channel
@@ -93,6 +95,8 @@ public:
     float scale(std::uint32_t leaf) const { return scale_[leaf]; } // that makes its row sum to 1 where it should
     const ChannelField& radiosity() const { return b_; }           // of all nodes: mean over their area
     float brightness(std::uint32_t node) const { return brightness_[node]; } // of B, weighted
+    bool limited() const { return limited_; }                                // by most_links or most_elements
+    std::uint32_t rows_above_one() const { return rows_above_one_; }         // leaves whose rows had to be scaled down
     bool buried(std::uint32_t node) const { return points_[node].count == 0; }
     float error_at(std::uint32_t leaf) const { return leaf_error_[leaf]; } // weighted irradiance
 
@@ -119,14 +123,16 @@ private:
     void apply(const Work& work);
     void cut(std::uint32_t node);
     void end_round();
+    bool gather(const std::atomic<bool>& cancel); // a slice of it; true at the end
     void sweep();
     void resize_values();
     void set_leaf_source(std::uint32_t leaf);
     void push_and_pull(bool sources_only);
-    void extrapolate(const std::vector<double>& change);
+    void extrapolate(const std::vector<double>& change, const std::vector<double>& alignment);
     void measure_errors();
     void sum_rows();
     float bright(const float* channels) const;
+    double contrast(std::uint32_t receiver, std::uint32_t source) const;
     bool is_next_tolerance_finer();
 
     const World& world_;
@@ -144,6 +150,7 @@ private:
     std::uint32_t looked_ = 0; // nodes that have points
     std::vector<Work> work_;
     std::size_t work_cursor_ = 0;
+    std::uint32_t gather_cursor_ = 0;
     std::vector<Link> links_, kept_;
     std::vector<std::uint32_t> first_link_; // of each node in links_, one more than nodes
     bool cut_any_ = false, limited_ = false, begun_ = false;
@@ -155,13 +162,16 @@ private:
         b_; // of nodes: E or what direct light leaves; H by own links; with those above; B
     std::vector<float> scale_, row_sum_, leaf_error_;
     std::vector<float> brightness_, brightness_spread_; // of B, weighted
+    std::vector<float> arriving_;                       // irradiance by links, weighted: mean over the node
     std::vector<float> direct_brightness_;              // of direct irradiance, weighted; of elements
     double mean_irradiance_ = 0, total_area_ = 0, emitted_flux_ = 0, mean_rho_ = 0;
     double residual_ = 1, last_residual_ = 1, estimated_error_ = 1, links_error_ = 1, error_bound_ = 1;
     std::vector<float> extrapolation_; // of the next sweep, by channel
     std::vector<double> change_before_, ratio_before_;
+    ChannelField step_before_; // of B in the last sweep
     std::uint32_t sweeps_since_ = 0;
     std::uint32_t growing_ = 0; // sweeps in a row whose residual grew
+    std::uint32_t rows_above_one_ = 0;
 };
 
 } // namespace lueur

@@ -1,6 +1,7 @@
 #include "core/solve/hierarchy_final.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numbers>
 
@@ -13,24 +14,72 @@
 
 namespace lueur {
 
-FinalGather::FinalGather(const Hierarchy& hierarchy, const Mesh& mesh, const std::vector<glm::vec3>& origins,
-                         const std::vector<LeafReading>& readings, const std::vector<std::uint8_t>& buried)
+namespace {
+
+// Of the node that a vertex reads, and of those above it.
+template <typename F>
+void for_nodes_above(const ElementTree& tree, std::uint32_t leaf, const F& f) {
+    for (std::uint32_t n = leaf; n != no_index; n = tree.nodes[n].parent) f(n);
+}
+
+constexpr std::uint32_t vertices_a_look = 256; // at the clock
+
+class FinalSlice {
+public:
+    explicit FinalSlice(const std::atomic<bool>& cancel)
+        : cancel_(cancel) {}
+    bool over() const {
+        return cancel_.load(std::memory_order_relaxed) ||
+               std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count() > step_seconds;
+    }
+
+private:
+    const std::atomic<bool>& cancel_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+} // namespace
+
+bool FinalGather::count_factors(const Hierarchy& hierarchy, const std::vector<LeafReading>& readings,
+                                const std::vector<std::uint8_t>& buried, const std::atomic<bool>& cancel,
+                                Count& count) {
+    const FinalSlice slice(cancel);
+    while (count.vertices < readings.size()) {
+        const std::uint32_t v = count.vertices++;
+        if (!buried[v])
+            for_nodes_above(hierarchy.tree(), readings[v].leaf,
+                            [&](std::uint32_t n) { count.factors += hierarchy.links_of(n).size(); });
+        if (count.vertices % vertices_a_look == 0 && slice.over()) break;
+    }
+    return count.vertices >= readings.size();
+}
+
+FinalGather::FinalGather(const Mesh& mesh, const std::vector<glm::vec3>& origins, std::vector<LeafReading> readings,
+                         std::vector<std::uint8_t> buried, std::uint64_t factors)
     : mesh_(mesh)
     , origins_(origins)
-    , vertices_(static_cast<std::uint32_t>(readings.size())) {
-    const ElementTree& tree = hierarchy.tree();
-    first_.assign(1, 0);
-    for (std::uint32_t v = 0; v < vertices_; ++v) {
-        if (!buried[v])
-            for (std::uint32_t n = readings[v].leaf; n != no_index; n = tree.nodes[n].parent)
-                for (const Link& link : hierarchy.links_of(n)) source_.push_back(link.source);
-        first_.push_back(source_.size());
-    }
-    factor_.assign(source_.size(), 0);
+    , readings_(std::move(readings))
+    , buried_(std::move(buried))
+    , vertices_(static_cast<std::uint32_t>(readings_.size())) {
+    first_.reserve(vertices_ + 1);
+    first_.push_back(0);
+    source_.reserve(factors);
+    factor_.reserve(factors);
     scale_.assign(vertices_, 1);
 }
 
 bool FinalGather::trace(const World& world, const Hierarchy& hierarchy, const std::atomic<bool>& cancel) {
+    const FinalSlice slice(cancel);
+    while (listed_ < vertices_) {
+        const std::uint32_t v = listed_++;
+        if (!buried_[v])
+            for_nodes_above(hierarchy.tree(), readings_[v].leaf, [&](std::uint32_t n) {
+                for (const Link& link : hierarchy.links_of(n)) source_.push_back(link.source);
+            });
+        factor_.resize(source_.size(), 0.0f);
+        first_.push_back(source_.size());
+        if (listed_ % vertices_a_look == 0 && slice.over()) return false;
+    }
     return run_slice(cursor_, vertices_, 8, cancel, [&](std::uint32_t first, std::uint32_t last) {
         for (std::uint32_t v = first; v < last; ++v) look_from(world, hierarchy, v);
     });
@@ -67,7 +116,7 @@ void FinalGather::look_from(const World& world, const Hierarchy& hierarchy, std:
                 std::array<glm::dvec3, 4> polygon;
                 for (std::size_t k = 0; k < corners; ++k) polygon[k] = tree.vertices[s.corners[k]];
                 f = polygon_form_factor(p, normal, {polygon.data(), corners}) * s.live_share;
-                if (all > 0) f *= visible / all;
+                f *= all > 0 ? visible / all : visible_corners(world, tree, p, normal, source_[l], rays);
             }
         }
         factor_[l] = static_cast<float>(f);

@@ -15,9 +15,21 @@ namespace lueur {
 
 class FinalGather {
 public:
+    // How many factors there will be, and what they take: known before any memory is taken. Counts in slices from
+    // `count` on: vertices counted and factors so far; true at the end.
+    struct Count {
+        std::uint32_t vertices = 0;
+        std::uint64_t factors = 0;
+    };
+    static bool count_factors(const Hierarchy& hierarchy, const std::vector<LeafReading>& readings,
+                              const std::vector<std::uint8_t>& buried, const std::atomic<bool>& cancel, Count& count);
+    static std::uint64_t bytes(std::uint64_t factors) { return factors * (sizeof(std::uint32_t) + sizeof(float)); }
+    static constexpr std::uint64_t most_factors = 40'000'000; // 305 MiB
+
     // origins: where rays of the vertices start; buried ones take no part. All must outlive trace().
-    FinalGather(const Hierarchy& hierarchy, const Mesh& mesh, const std::vector<glm::vec3>& origins,
-                const std::vector<LeafReading>& readings, const std::vector<std::uint8_t>& buried);
+    // factors: as count_factors found them.
+    FinalGather(const Mesh& mesh, const std::vector<glm::vec3>& origins, std::vector<LeafReading> readings,
+                std::vector<std::uint8_t> buried, std::uint64_t factors);
 
     std::size_t factors() const { return source_.size(); }
     bool trace(const World& world, const Hierarchy& hierarchy,
@@ -32,11 +44,13 @@ private:
 
     const Mesh& mesh_;
     const std::vector<glm::vec3>& origins_;
-    std::uint32_t vertices_ = 0, cursor_ = 0;
-    std::vector<std::size_t> first_;    // of each vertex, one more than vertices
-    std::vector<std::uint32_t> source_; // node
-    std::vector<float> factor_;         // F from the vertex
-    std::vector<float> scale_;          // of the row
+    std::vector<LeafReading> readings_;
+    std::vector<std::uint8_t> buried_;
+    std::uint32_t vertices_ = 0, listed_ = 0, cursor_ = 0; // sources listed of so many, factors found of so many
+    std::vector<std::size_t> first_;                       // of each vertex, one more than vertices
+    std::vector<std::uint32_t> source_;                    // node
+    std::vector<float> factor_;                            // F from the vertex
+    std::vector<float> scale_;                             // of the row
     std::atomic<std::uint64_t> rays_{0};
 };
 

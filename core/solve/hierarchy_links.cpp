@@ -77,6 +77,22 @@ NodePoints look_around(const World& world, ElementTree& tree, std::uint32_t n, f
     return points;
 }
 
+double visible_corners(const World& world, const ElementTree& tree, glm::vec3 position, glm::vec3 normal,
+                       std::uint32_t n, std::uint64_t& rays) {
+    constexpr float inside = 0.01f; // of the way to the middle: the corner itself lies in the next wall
+    const ElementNode& node = tree.nodes[n];
+    if (glm::dot(position - node.centre, node.normal) <= 0) return 0;
+    int before = 0, seen = 0;
+    for (const std::uint32_t c : node.corners) {
+        if (c == no_index) continue;
+        const glm::vec3 corner = tree.vertices[c], d = corner + inside * (node.centre - corner) - position;
+        if (glm::dot(d, normal) <= 0) continue;
+        ++before, ++rays;
+        seen += !world.occluded({position, d, 1e-5f, 1 - 1e-3f});
+    }
+    return before > 0 ? double(seen) / before : 0;
+}
+
 LinkEstimate estimate_link(const World& world, const ElementTree& tree, const std::vector<NodePoints>& points,
                            std::uint32_t receiver, std::uint32_t source, LinkKernel kernel) {
     LinkEstimate estimate;
@@ -149,7 +165,15 @@ LinkEstimate estimate_link(const World& world, const ElementTree& tree, const st
             square += std::pow(double(s.live_area()) * disk_of[j] / double(p.count) - mean, 2);
         unsure = qc > 1 ? std::sqrt(square / double(qc * (qc - 1))) : 0;
     } else {
-        const double share = all > 0 ? visible / all : 1; // none of the points face: slivers near an edge, all seen
+        double share = all > 0 ? visible / all : 0;
+        if (!(all > 0)) { // none of the points face: slivers near an edge
+            std::uint64_t rays = 0;
+            for (std::size_t i = 0; i < pc; ++i)
+                share = std::max(share, visible_corners(world, tree, p.position[i], p.normal[i], source, rays));
+            for (std::size_t j = 0; j < qc && !(share > 0); ++j)
+                share = visible_corners(world, tree, q.position[j], q.normal[j], receiver, rays);
+            estimate.rays += static_cast<std::uint32_t>(rays);
+        }
         const auto exact = exact_from_points(tree, p, source);
         for (std::size_t i = 0; i < pc; ++i)
             at_point[i] = double(exact[i]) * s.live_share * (all_at[i] > 0 ? visible_at[i] / all_at[i] : share);

@@ -42,6 +42,11 @@ struct LinkEstimate {
 LinkEstimate estimate_link(const World& world, const ElementTree& tree, const std::vector<NodePoints>& points,
                            std::uint32_t receiver, std::uint32_t source, LinkKernel kernel);
 
+// Share of an element's corners, seen from a point, that are not hidden; of those before it and above its horizon. For
+// elements of which no inner point is seen from there: slivers above an edge.
+double visible_corners(const World& world, const ElementTree& tree, glm::vec3 position, glm::vec3 normal,
+                       std::uint32_t node, std::uint64_t& rays);
+
 // False where one lies wholly behind the other, so that no light is exchanged.
 bool can_face(const ElementTree& tree, std::uint32_t a, std::uint32_t b);
 

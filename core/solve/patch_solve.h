@@ -29,7 +29,9 @@ struct PatchSolve {
     MatrixSystem system;
     ChannelField irradiance;     // at the coarse vertices
     double smoothing = 0;        // relative RMS difference between patches and the mean of their vertices
-    std::vector<double> history; // unshot share after each sweep
+    double arriving = 0;         // luminous flux on all patches, lm
+    std::vector<double> history; // share missing after each sweep, or round of as many shots as there are patches
+    std::vector<double> unshot_history; // share unshot after each sweep
 };
 
 } // namespace lueur

@@ -10,8 +10,8 @@ namespace lueur {
 
 namespace {
 
-constexpr int first_roulette = 2, most_bounces = 1000;
-constexpr double most_survival = 0.95; // below 1, so that every path ends
+constexpr int first_roulette = 2;
+constexpr int most_bounces = 20000; // a hundredth of a second: what is cancelled ends within it
 
 class Random {
 public:
@@ -68,7 +68,8 @@ PathLights make_path_lights(const Solution::State& s) {
 }
 
 double trace_path(const Solution::State& s, const PathLights& lights, glm::vec3 origin, glm::vec3 normal,
-                  std::uint32_t seed, std::uint32_t batch, std::uint32_t path, std::span<double> irradiance) {
+                  std::uint32_t seed, std::uint32_t batch, std::uint32_t path, std::span<double> irradiance,
+                  bool* cut_short) {
     if (!(lights.total > 0)) return 0;
     const World& world = *s.world;
     const auto& emitters = s.direct->emitters();
@@ -96,7 +97,11 @@ double trace_path(const Solution::State& s, const PathLights& lights, glm::vec3 
         }
     glm::vec3 p = origin, n = normal;
     glm::vec2 u = r2_point(path, offset);
-    for (int bounce = 0; bounce < most_bounces; ++bounce) {
+    for (int bounce = 0;; ++bounce) {
+        if (bounce == most_bounces) {
+            if (cut_short) *cut_short = true;
+            break;
+        }
         const glm::vec3 direction = Frame(n).world(cosine_direction(u));
         const Hit hit = world.closest({p, direction});
         if (hit.element == no_index) break;
@@ -122,7 +127,9 @@ double trace_path(const Solution::State& s, const PathLights& lights, glm::vec3 
         }
         if (largest <= 0) break;
         if (bounce >= first_roulette) {
-            const double survive = std::min(most_survival, largest);
+            // Fewer must not survive than are reflected: the weight of those that do would grow from bounce to bounce,
+            // and from rho^2 > survival on the variance has no bound.
+            const double survive = std::min(1.0, largest);
             if (random.next() >= survive) break;
             for (std::size_t k = 0; k < channels; ++k) throughput[k] /= survive;
         }

@@ -29,8 +29,10 @@ PathLights make_path_lights(const Solution::State& state);
 
 // Adds what path number `path` of batch `batch` brings to the point (already off its surface): irradiance per channel,
 // as many channels as `irradiance` has room for. The point's seed decides its sequences. Returns its illuminance.
+// cut_short: set where the path had to be ended, which biases it.
 double trace_path(const Solution::State& state, const PathLights& lights, glm::vec3 origin, glm::vec3 normal,
-                  std::uint32_t seed, std::uint32_t batch, std::uint32_t path, std::span<double> irradiance);
+                  std::uint32_t seed, std::uint32_t batch, std::uint32_t path, std::span<double> irradiance,
+                  bool* cut_short = nullptr);
 
 struct PathEstimate {
     std::vector<double> channels; // irradiance, without trichromatic channels

@@ -10,6 +10,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
+#include "core/solve/least_absorbed.h"
 #include "core/transport/polygon_form_factor.h"
 #include "core/transport/sampling.h"
 
@@ -20,17 +21,17 @@ namespace {
 using Range = tbb::blocked_range<std::uint32_t>;
 constexpr std::uint32_t patches_a_task = 256;
 constexpr std::uint32_t shadow_rays = 3; // a receiver and shot
-constexpr double most_sent_on = 0.98;    // of a shot's flux
+constexpr float most_scaling = 4;        // of a shot that arrives short
 
 } // namespace
 
-Shooting::Shooting(const World& world, const Mesh& mesh, std::vector<glm::vec3> origins,
-                   std::vector<std::uint8_t> buried, std::vector<ChannelField> direct, std::vector<double> emitted_flux,
-                   ChannelField rho, std::vector<float> weight, std::uint32_t seed)
+Shooting::Shooting(const World& world, const Mesh& mesh, Scenery scenery, std::vector<ChannelField> direct,
+                   std::vector<double> emitted_flux, ChannelField rho, std::vector<float> weight, std::uint32_t seed)
     : world_(&world)
     , mesh_(&mesh)
-    , origins_(std::move(origins))
-    , buried_(std::move(buried))
+    , origins_(std::move(scenery.origins))
+    , buried_(std::move(scenery.buried))
+    , luminaire_closed_(std::move(scenery.luminaire_closed))
     , direct_(std::move(direct))
     , emitted_(std::move(emitted_flux))
     , luminaire_shot_(emitted_.size(), 0)
@@ -45,11 +46,15 @@ Shooting::Shooting(const World& world, const Mesh& mesh, std::vector<glm::vec3> 
     emitted_total_ = std::accumulate(emitted_.begin(), emitted_.end(), 0.0);
     unshot_total_ = emitted_total_;
 
+    lit_share_ = scenery.lit_share;
     patch_area_.assign(patches, 0);
+    patch_closed_.assign(patches, 1);
     patch_first_.assign(patches + 1, 0);
     for (std::uint32_t e = 0; e < mesh.coarse_element_count; ++e) {
         patch_area_[mesh.coarse_patch[e]] += mesh.coarse_area[e];
         ++patch_first_[mesh.coarse_patch[e] + 1];
+        for (int k = 0; k < 3; ++k)
+            if (!scenery.closed[mesh.nodes[e].vertices[k]]) patch_closed_[mesh.coarse_patch[e]] = 0;
     }
     std::partial_sum(patch_first_.begin(), patch_first_.end(), patch_first_.begin());
     patch_elements_.resize(mesh.coarse_element_count);
@@ -93,7 +98,7 @@ void Shooting::add_patch_mean(std::uint32_t patch, const float* values, int stri
     }
 }
 
-void Shooting::receive(const ChannelField& irradiance) {
+void Shooting::receive(const ChannelField& irradiance, float scale) {
     const int channels = static_cast<int>(weight_.size());
     tbb::parallel_for(Range(0, unshot_.count, 32), [&](const Range& range) {
         for (std::uint32_t p = range.begin(); p < range.end(); ++p) {
@@ -105,7 +110,7 @@ void Shooting::receive(const ChannelField& irradiance) {
                 add_patch_mean<8>(p, irradiance.values.data() + channel, irradiance.stride, mean + channel);
             float flux = 0;
             for (int c = 0; c < channels; ++c) {
-                unshot_[p][c] += rho_[p][c] * mean[c];
+                unshot_[p][c] += scale * rho_[p][c] * mean[c];
                 flux += weight_[c] * unshot_[p][c];
             }
             unshot_flux_[p] = flux * patch_area_[p];
@@ -113,25 +118,37 @@ void Shooting::receive(const ChannelField& irradiance) {
     });
 }
 
-void Shooting::deliver(const std::vector<float>& form_factor, const float* radiosity, double shot_flux) {
+double Shooting::arriving(const ChannelField& irradiance) const {
+    ChannelField luminous(irradiance.count, 1);
+    for (std::uint32_t i = 0; i < irradiance.count; ++i)
+        for (std::size_t c = 0; c < weight_.size(); ++c) luminous[i][0] += weight_[c] * irradiance[i][c];
+    double sum = 0;
+    for (std::uint32_t p = 0; p < unshot_.count; ++p) {
+        float mean = 0;
+        add_patch_mean<1>(p, luminous.values.data(), luminous.stride, &mean);
+        sum += double(patch_area_[p]) * mean;
+    }
+    return sum;
+}
+
+void Shooting::deliver(const std::vector<float>& form_factor, std::uint32_t shooter, const float* radiosity) {
     const int channels = static_cast<int>(weight_.size());
-    // The flux that the patches would send on. Form factors from a vertex sum to 1, but the mean over the vertices of
-    // elements that touch the shooter is too much.
-    const double sent_on = tbb::parallel_deterministic_reduce(
+    const double received = tbb::parallel_deterministic_reduce(
         Range(0, unshot_.count, 4 * patches_a_task), 0.0,
         [&](const Range& range, double sum) {
             for (std::uint32_t p = range.begin(); p < range.end(); ++p) {
-                float mean = 0, reflected = 0;
+                float mean = 0;
                 add_patch_mean<1>(p, form_factor.data(), 1, &mean);
-                if (mean <= 0) continue;
-                for (int c = 0; c < channels; ++c) reflected += weight_[c] * rho_[p][c] * radiosity[c];
-                sum += double(patch_area_[p]) * reflected * mean;
+                sum += double(patch_area_[p]) * mean;
             }
             return sum;
         },
         [](double a, double b) { return a + b; });
-    const double limit = most_sent_on * shot_flux;
-    const float scale = sent_on > limit ? static_cast<float>(limit / sent_on) : 1.0f;
+    const double area = patch_area_[shooter];
+    float scale = 1;
+    if (received > area || (patch_closed_[shooter] && received > 0))
+        scale = std::min(most_scaling, static_cast<float>(area / received));
+    for (int c = 0; c < channels; ++c) arrived_ += weight_[c] * radiosity[c] * scale * received;
     ChannelField irradiance(mesh_->coarse_vertex_count, channels);
     tbb::parallel_for(Range(0, irradiance.count, patches_a_task), [&](const Range& range) {
         for (std::uint32_t i = range.begin(); i < range.end(); ++i) {
@@ -143,7 +160,7 @@ void Shooting::deliver(const std::vector<float>& form_factor, const float* radio
             }
         }
     });
-    receive(irradiance);
+    receive(irradiance, 1);
 }
 
 // F from each coarse vertex to a patch, times the share of its stratified points that the vertex sees.
@@ -187,7 +204,12 @@ bool Shooting::shoot() {
     for (std::size_t k = 0; k < emitted_.size(); ++k)
         if (!luminaire_shot_[k] && (l == emitted_.size() || emitted_[k] > emitted_[l])) l = k;
     if (l < emitted_.size()) {
-        receive(direct_[l]);
+        const double received = arriving(direct_[l]);
+        float scale = 1;
+        if (received > emitted_[l] || (luminaire_closed_[l] && received > 0))
+            scale = std::min(most_scaling, static_cast<float>(emitted_[l] / received));
+        receive(direct_[l], scale);
+        arrived_ += double(scale) * received;
         luminaire_shot_[l] = 1;
         ++luminaires_shot_;
         last_shooter_ = no_index;
@@ -196,10 +218,9 @@ bool Shooting::shoot() {
         if (largest == unshot_flux_.end() || !(*largest > 0)) return false;
         const std::uint32_t j = static_cast<std::uint32_t>(largest - unshot_flux_.begin());
         const std::vector<float> form_factor = form_factors_to(j);
-        const double shot_flux = unshot_flux_[j];
         std::vector<float> radiosity(unshot_[j], unshot_[j] + weight_.size());
         std::fill(unshot_[j], unshot_[j] + weight_.size(), 0.0f);
-        deliver(form_factor, radiosity.data(), shot_flux);
+        deliver(form_factor, j, radiosity.data());
         last_shooter_ = j;
     }
     ++shots_;
@@ -208,7 +229,24 @@ bool Shooting::shoot() {
     for (std::size_t k = 0; k < emitted_.size(); ++k)
         if (!luminaire_shot_[k]) unshot += emitted_[k];
     unshot_total_ = unshot;
+    if (unshot_.count > 0 && luminaires_shot_ == emitted_.size() && (shots_ - luminaires_shot_) % unshot_.count == 0)
+        missing_.push_back(missing_share());
     return true;
+}
+
+double Shooting::missing_share() const {
+    if (!(emitted_total_ > 0)) return 0;
+    if (luminaires_shot_ < emitted_.size()) return 1;
+    const double absorbed = std::max(least_absorbed, 1 - mean_rho_ * lit_share_);
+    const double missing = unshot_total_ / absorbed;
+    return arrived_ > 0 ? std::min(1.0, missing / (missing + arrived_)) : 0;
+}
+
+double Shooting::shots_needed(double enough) const {
+    if (missing_.size() < 3 || !(missing_.back() > enough)) return 0;
+    const double rate = missing_.back() / missing_[missing_.size() - 2];
+    if (!(rate < 1)) return 1e30;
+    return shots_ + unshot_.count * std::log(enough / missing_.back()) / std::log(rate);
 }
 
 std::vector<float> Shooting::ambient() const {

@@ -8,6 +8,7 @@
 
 #include "core/scene/solver_words.h"
 #include "core/solve/choose_solver.h"
+#include "core/solve/settled_words.h"
 #include "core/solve/solution_steps.h"
 #include "core/solve/traced_field.h"
 
@@ -62,9 +63,15 @@ void forget_other_solvers(State& s) {
     if (s.solver() != SolverKind::reference) s.traced.reset();
     if (s.solver() != SolverKind::hierarchical) {
         s.final_gather.reset();
+        s.making_hierarchy = {};
+        s.making_leaf_mesh = {};
         s.hierarchy.reset();
         s.hierarchy_view.reset();
     }
+}
+
+void add_words(std::string& message, const std::string& words) {
+    if (!words.empty()) message += (message.empty() ? "" : "; ") + words;
 }
 
 } // namespace
@@ -213,7 +220,10 @@ bool Solution::step(const std::atomic<bool>& cancel, bool one_shot) {
         s.edit_open = false;
         s.status.last_edit_seconds = s.status.seconds;
     }
-    if (s.phase == SolvePhase::settled) take_stock();
+    if (s.phase == SolvePhase::settled) {
+        take_stock();
+        if (s.stock) add_words(s.status.message, settled_words(s, *s.stock));
+    }
     return s.phase != SolvePhase::settled && s.phase != SolvePhase::failed;
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/solve/least_absorbed.h"
 #include "core/solve/ray_budget.h"
 #include "core/solve/solution_steps.h"
 #include "core/transport/time_slice.h"
@@ -74,6 +75,18 @@ std::vector<float> equal_flux_direct(const State& s) {
     return direct;
 }
 
+// Of all the light that arrives in the end, the share that is still missing: each unit of the residual is reflected on,
+// 1 / (1 - rho_ave) times if nothing is lost.
+double gathering_missing_share(const State& s, const std::vector<float>& areas, const std::vector<float>& direct) {
+    double arriving = 0;
+    for (std::uint32_t i = 0; i < s.receivers.count(); ++i)
+        arriving += double(areas[i]) *
+                    (double(direct[i]) + luminous(s, s.gathered_direct[i]) + luminous(s, s.system.gathered()[i]));
+    const double absorbed = std::max(least_absorbed, 1 - mean_luminous_reflectance(s) * mean_lit_share(s));
+    const double missing = s.status.unshot_share * s.status.emitted_lumens / absorbed;
+    return missing > 0 ? missing / (missing + arriving) : 0;
+}
+
 void update_error(State& s) {
     const std::uint32_t receivers = s.receivers.count();
     ScalarRadiosity radiosity{std::vector<float>(receivers), std::vector<float>(s.mesh.vertices.size())};
@@ -106,22 +119,39 @@ void update_error(State& s) {
     for (std::uint32_t v = 0; v < s.indirect_deviation.size(); ++v)
         s.indirect_deviation[v] = std::sqrt(variance[s.receivers.of_vertex[v]]);
     const double rays = ray_error(s.passes, radiosity, direct, receiver_areas(s));
-    const double unsolved = s.status.unshot_share / std::max(1e-3, 1 - mean_luminous_reflectance(s));
+    const double unsolved = gathering_missing_share(s, receiver_areas(s), direct);
     const double interpolation = s.direct->misfit();
     s.status.estimated_error =
         std::min(1.0, std::sqrt(rays * rays + unsolved * unsolved + interpolation * interpolation));
 }
 
-// In a closed scene that absorbs nothing the radiosity grows without end: say so instead of iterating.
+// In a part of the scene that keeps all its light the radiosity grows without end: say so instead of iterating. Light
+// of a receiver can end if it absorbs, if one of its rays leaves the scene, or if one ends where light can.
 bool has_no_finite_solution(const State& s) {
+    const std::uint32_t n = s.receivers.count();
     if (s.status.emitted_lumens <= 0 || s.passes.empty()) return false;
-    for (std::uint32_t i = 0; i < s.receivers.count(); ++i) {
-        if (s.receivers.buried[i]) continue;
-        const auto& rho = s.material_rho[s.material_of(s.mesh.vertices[s.receivers.vertex[i]].surface)];
-        if (*std::min_element(rho.begin(), rho.end()) < 1 - 1e-7) return false;
-        if (row_sum(s.passes, i, s.receivers.count()) < 1 - 1e-7) return false;
+    for (int c = 0; c < s.channels(); ++c) {
+        std::vector<std::uint8_t> ends(n + 1, 1);
+        bool any_white = false;
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const auto& rho = s.material_rho[s.material_of(s.mesh.vertices[s.receivers.vertex[i]].surface)];
+            ends[i] = s.receivers.buried[i] || rho[static_cast<std::size_t>(c)] < 1 - least_absorbed;
+            any_white = any_white || !ends[i];
+        }
+        for (bool changed = any_white; changed;) {
+            changed = false;
+            for (std::uint32_t i = 0; i < n; ++i) {
+                for (std::size_t p = 0; p < s.passes.size() && !ends[i]; ++p)
+                    for (int k = 0; k < rays_per_pass && !ends[i]; ++k)
+                        ends[i] = ends[s.passes[p].ends[std::size_t(i) * rays_per_pass + std::size_t(k)]];
+                changed = changed || ends[i] == 1;
+                if (ends[i] == 1) ends[i] = 2; // counted
+            }
+        }
+        for (std::uint32_t i = 0; i < n; ++i)
+            if (!ends[i] && s.gathered_direct[i][c] > 0) return true;
     }
-    return true;
+    return false;
 }
 
 void refresh_indirect(State& s) {
@@ -211,7 +241,7 @@ void trace_gathering_rows(State& s, const std::atomic<bool>& cancel) {
 
 void step_gathering(State& s, const std::atomic<bool>& cancel) {
     s.status.stage = SolveStage::solving;
-    if (has_no_finite_solution(s)) return fail(s, no_finite_solution);
+    if (s.status.sweeps == 0 && has_no_finite_solution(s)) return fail(s, no_finite_solution);
     if (s.system.relative_residual() > residual_target) {
         if (!s.system.sweep(s.passes, cancel)) return;
         ++s.status.sweeps;

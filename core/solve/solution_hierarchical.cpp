@@ -1,9 +1,14 @@
 // Hierarchical radiosity in a solution: links made and refined, then gathered over, pushed and pulled.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
+#include <fmt/format.h>
+
+#include "core/solve/least_absorbed.h"
 #include "core/solve/restriction.h"
 #include "core/solve/solution_steps.h"
+#include "core/transport/time_slice.h"
 
 namespace lueur {
 
@@ -13,6 +18,12 @@ constexpr std::uint32_t vertices_for_leaves = 40000; // that leaves may add to t
 constexpr double direct_share = 0.5; // of the target error that interpolation of direct light is left with
 
 using State = Solution::State;
+
+// Waits for a step's time at most.
+template <typename T>
+bool is_ready(std::future<T>& future) {
+    return future.wait_for(std::chrono::duration<double>(step_seconds)) == std::future_status::ready;
+}
 
 HierarchySources sources_of(const State& s) {
     HierarchySources sources;
@@ -90,6 +101,14 @@ void step_show_leaves(State& s, const std::atomic<bool>& cancel) {
     switch (s.show_leaves) {
     case Part::no:
         return;
+    case Part::make:
+        if (s.making_leaf_mesh.valid()) {
+            if (!is_ready(s.making_leaf_mesh)) return;
+            s.leaf_mesh = s.making_leaf_mesh.get();
+        }
+        s.leaf_mesh->begin();
+        s.show_leaves = Part::cut;
+        return;
     case Part::cut: {
         const auto most = static_cast<std::uint32_t>(std::max<std::size_t>(
             s.direct->lit_vertices(), s.mesh.coarse_vertex_count + std::size_t(vertices_for_leaves)));
@@ -125,26 +144,39 @@ void report(State& s) {
     s.status.sweeps = h.sweeps();
     s.status.residual = h.residual();
     s.status.error_bound = h.error_bound();
-    const double absorbed = std::max(1e-3, 1 - mean_luminous_reflectance(s));
+    const double absorbed = std::max(least_absorbed, 1 - mean_luminous_reflectance(s));
     s.status.unshot_share = std::min(1.0, h.residual() / absorbed);
     const double direct = s.direct_light_apart() ? s.direct->misfit() : 0;
     s.status.estimated_error = std::min(1.0, std::hypot(h.estimated_error(), direct));
     s.status.progress = h.progress();
 }
 
-// The links are made and solved over. What remains is what the vertices get of them themselves.
+// The links are made and solved over. What remains is what the vertices get of them themselves. How many factors that
+// takes is counted before the memory is, once for the links there are.
 void step_final_gather(State& s, const std::atomic<bool>& cancel) {
-    constexpr std::size_t most_factors = 40'000'000; // 320 MB
     if (!s.direct_light_apart()) return settle(s);
-    if (!s.final_gather || s.final_round != s.hierarchy->rounds()) {
-        s.vertex_origins = ray_origins(s.mesh, s.world->epsilon());
-        s.final_gather = std::make_unique<FinalGather>(*s.hierarchy, s.mesh, s.vertex_origins, s.leaf_mesh->readings(),
-                                                       s.all_buried());
+    if (s.final_round != s.hierarchy->rounds()) {
+        s.final_gather.reset();
+        s.final_count = {};
+        s.final_counted = s.final_done = false;
+        s.status.final_gather_bytes = 0;
         s.final_round = s.hierarchy->rounds();
-        s.final_done = s.final_gather->factors() > most_factors;
-        if (s.final_done) s.final_gather.reset();
+    }
+    if (!s.final_counted) {
+        s.final_counted =
+            FinalGather::count_factors(*s.hierarchy, s.leaf_mesh->readings(), s.all_buried(), cancel, s.final_count);
+        if (!s.final_counted) return;
+        s.status.final_gather_bytes = FinalGather::bytes(s.final_count.factors);
+        s.final_done = s.final_count.factors > FinalGather::most_factors;
+        return; // the status says what it will take before it is taken
     }
     if (!s.final_done) {
+        if (!s.final_gather) {
+            s.vertex_origins = ray_origins(s.mesh, s.world->epsilon());
+            s.final_gather = std::make_unique<FinalGather>(s.mesh, s.vertex_origins, s.leaf_mesh->readings(),
+                                                           s.all_buried(), s.final_count.factors);
+            return;
+        }
         const std::uint64_t rays = s.final_gather->rays();
         s.final_done = s.final_gather->trace(*s.world, *s.hierarchy, cancel);
         s.status.rays += s.final_gather->rays() - rays;
@@ -154,6 +186,11 @@ void step_final_gather(State& s, const std::atomic<bool>& cancel) {
     if (s.final_gather) {
         s.indirect_irradiance = s.final_gather->irradiance(*s.hierarchy, s.channels());
         fill_buried(s.mesh.elements, s.all_buried(), s.indirect_irradiance);
+    } else if (s.status.message.empty()) {
+        s.status.message = fmt::format(
+            "the last gather at the vertices would take {}, and {} are allowed: shadows of indirect light "
+            "are as coarse as the links",
+            bytes_text(s.status.final_gather_bytes), bytes_text(FinalGather::bytes(FinalGather::most_factors)));
     }
     settle(s);
 }
@@ -161,12 +198,13 @@ void step_final_gather(State& s, const std::atomic<bool>& cancel) {
 } // namespace
 
 void start_hierarchical(State& s, bool same_sources) {
+    if (absorbs_nothing(s)) return fail(s, no_finite_solution);
     if (s.direct_light_apart() && !s.refined) {
         s.phase = SolvePhase::refine;
         return;
     }
     const SolveSettings& solve = s.scene->solve;
-    if (!s.hierarchy || !s.solving) {
+    if ((!s.hierarchy && !s.making_hierarchy.valid()) || !s.solving) {
         HierarchySettings settings;
         settings.oracle = solve.oracle;
         settings.tolerance = solve.link_tolerance;
@@ -175,16 +213,21 @@ void start_hierarchical(State& s, bool same_sources) {
         DirectAt direct;
         if (s.direct_light_apart())
             direct = [&s](glm::vec3 p, glm::vec3 n, float* factors) { direct_at(s, p, n, factors); };
-        s.hierarchy = std::make_unique<Hierarchy>(*s.scene, *s.world, settings, std::move(direct));
-        if (!s.hierarchy->failure().empty()) return fail(s, s.hierarchy->failure());
+        s.hierarchy.reset();
+        s.making_hierarchy = std::async(
+            std::launch::async, [scene = s.scene, world = s.world, settings, direct = std::move(direct)]() mutable {
+                return std::make_unique<Hierarchy>(*scene, *world, settings, std::move(direct));
+            });
+        s.making_leaf_mesh = {};
         s.final_gather.reset();
+        s.final_round = 0;
         s.leaf_mesh.reset();
         s.shown_round = 0;
         s.show_leaves = State::ShowLeaves::no;
         s.indirect_irradiance = ChannelField(s.mesh.coarse_vertex_count, s.channels());
         same_sources = false;
     }
-    if (!same_sources) s.hierarchy->set_sources(sources_of(s));
+    if (!same_sources && s.hierarchy) s.hierarchy->set_sources(sources_of(s)); // else when it is there
     s.solving = true;
     s.status.sweeps = 0;
     s.phase = SolvePhase::solve;
@@ -196,21 +239,27 @@ void make_links(State& s, const std::atomic<bool>&) {
 
 void step_hierarchical(State& s, const std::atomic<bool>& cancel) {
     s.status.stage = SolveStage::solving;
+    if (s.making_hierarchy.valid()) {
+        if (!is_ready(s.making_hierarchy)) return;
+        s.hierarchy = s.making_hierarchy.get();
+        if (!s.hierarchy->failure().empty()) return fail(s, s.hierarchy->failure());
+        s.hierarchy->set_sources(sources_of(s));
+    }
     Hierarchy& h = *s.hierarchy;
     if (s.show_leaves != State::ShowLeaves::no) return step_show_leaves(s, cancel);
     if (h.settled()) return step_final_gather(s, cancel);
     const std::uint64_t rays = h.rays();
     const std::uint32_t sweeps = h.sweeps();
     h.step(cancel);
-    if (h.sweeps() > 0 && sweeps == 0 && h.absorbs_nothing()) return fail(s, no_finite_solution);
     s.status.rays += h.rays() - rays;
     if (!h.failure().empty()) return fail(s, h.failure());
     report(s);
     if (h.sweeps() == sweeps) return;
     if (!h.refining() && h.rounds() != s.shown_round) {
-        if (!s.leaf_mesh) s.leaf_mesh = std::make_unique<LeafMesh>(s.mesh);
-        s.leaf_mesh->begin();
-        s.show_leaves = State::ShowLeaves::cut;
+        if (!s.leaf_mesh)
+            s.making_leaf_mesh =
+                std::async(std::launch::async, [mesh = s.published_mesh] { return std::make_unique<LeafMesh>(*mesh); });
+        s.show_leaves = State::ShowLeaves::make;
     } else if (h.settled()) {
         show_links(s); // other light on the same links
         refresh_values(s);

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "core/scene/solver_words.h"
+#include "core/solve/least_absorbed.h"
 #include "core/solve/solution_steps.h"
 #include "core/transport/time_slice.h"
 
@@ -61,6 +62,7 @@ void show_patches(State& s) {
         for (int c = 0; c < s.channels() && area[v] > 0; ++c) p.irradiance[v][c] /= area[v];
 
     double square = 0, norm = 0;
+    p.arriving = 0;
     std::vector<float> channels(static_cast<std::size_t>(h.stride));
     for (std::uint32_t e = 0; e < mesh.coarse_element_count; ++e) {
         const double* patch = h[p.of_element[e]];
@@ -70,13 +72,31 @@ void show_patches(State& s) {
         for (int k = 0; k < 3; ++k) mean += luminous(s, p.irradiance[mesh.nodes[e].vertices[k]]) / 3;
         square += mesh.coarse_area[e] * (there - mean) * (there - mean);
         norm += mesh.coarse_area[e] * there * there;
+        p.arriving += mesh.coarse_area[e] * there;
     }
     p.smoothing = norm > 0 ? std::sqrt(square / norm) : 0;
 }
 
-// Why it will not get there, or nothing. `enough`: the unshot share it is to reach.
+// Of all the light that arrives in the end, the share that is still missing. Each unit unshot is reflected on,
+// 1 / (1 - rho_ave) times if nothing is lost, and in a part of the scene that is whiter than the rest as the sweeps
+// show: Jacobi's residual falls by the largest eigenvalue mu, Gauss-Seidel's by mu^2 (Young 1971).
+double missing_share(const State& s) {
+    const PatchSolve& p = s.patch_solve;
+    double absorbed = std::max(least_absorbed, 1 - mean_luminous_reflectance(s) * mean_lit_share(s));
+    const std::vector<double>& u = p.unshot_history;
+    if (s.solver() != SolverKind::overshooting && u.size() > rate_sweeps && u[u.size() - 1 - rate_sweeps] > 0) {
+        double rate = std::pow(u.back() / u[u.size() - 1 - rate_sweeps], 1.0 / rate_sweeps);
+        if (s.solver() == SolverKind::gauss_seidel) rate = std::sqrt(rate);
+        if (rate < 1) absorbed = std::max(least_absorbed, std::min(absorbed, 1 - rate));
+    }
+    const double missing = s.status.unshot_share * s.status.emitted_lumens / absorbed;
+    return missing > 0 ? missing / (missing + p.arriving) : 0;
+}
+
+// Why it will not get there, or nothing. `enough`: the share missing that it is to reach.
 std::string hopeless(const State& s, double enough) {
     const std::vector<double>& u = s.patch_solve.history;
+    if (u.back() <= enough) return {};
     if (!u.empty() && !std::isfinite(u.back())) return "the solver lost its way on this scene: no finite radiosities";
     if (u.size() <= 2 * rate_sweeps) return {};
     const double rate = std::pow(u.back() / u[u.size() - 1 - rate_sweeps], 1.0 / rate_sweeps);
@@ -91,13 +111,31 @@ std::string hopeless(const State& s, double enough) {
                        most_matrix_sweeps);
 }
 
+std::string hopeless_shots(const State& s, double enough) {
+    const std::vector<double>& u = s.patch_solve.history; // after each round of as many shots as there are patches
+    const double most = double(most_shots) * s.patch_solve.matrix.n;
+    double needed = s.status.shots;
+    if (u.size() >= rate_sweeps) {
+        const double rate = std::pow(u.back() / u[u.size() - rate_sweeps / 2], 2.0 / rate_sweeps);
+        needed = rate < 1 ? needed + s.patch_solve.matrix.n * std::log(enough / u.back()) / std::log(rate) : 1e30;
+    }
+    if (needed <= most) return {};
+    return fmt::format("overshooting would need about {:.2g} shots, {:.2g} are the limit: a reflectance is too close "
+                       "to 1",
+                       needed, most);
+}
+
 void take_shots(State& s, const std::atomic<bool>& cancel, bool one_shot, double enough) {
     MatrixSystem& system = s.patch_solve.system;
     const auto start = std::chrono::steady_clock::now();
+    bool hopeless = false; // when it ends is counted in shots, never in time
     do {
         if (!system.shoot(true)) break;
         ++s.status.shots;
-    } while (!one_shot && system.unshot_share() > enough && !cancel.load(std::memory_order_relaxed) &&
+        if (s.status.shots % s.patch_solve.matrix.n != 0) continue;
+        s.patch_solve.history.push_back(system.unshot_share());
+        hopeless = !hopeless_shots(s, enough).empty();
+    } while (!one_shot && system.unshot_share() > enough && !hopeless && !cancel.load(std::memory_order_relaxed) &&
              std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < step_seconds);
     system.refresh();
     const std::uint32_t shooter = system.last_shooter();
@@ -137,6 +175,7 @@ void start_matrix(State& s, bool same_sources) {
     if (!s.solving) p.system = MatrixSystem(p.matrix, s.channels(), flux_weights(s));
     s.status.sweeps = s.status.shots = 0;
     p.history.clear();
+    p.unshot_history.clear();
     if (s.status.message.empty() && p.sums.above + p.sums.broken > 0)
         s.status.message =
             fmt::format("form factors of {} of {} patches summed to more than 1 ({:.4g} at most): scaled down to 1",
@@ -181,9 +220,10 @@ void build_matrix(State& s, const std::atomic<bool>& cancel) {
 void step_matrix(State& s, const std::atomic<bool>& cancel, bool one_shot) {
     PatchSolve& p = s.patch_solve;
     s.status.stage = SolveStage::solving;
-    const double absorbed = std::max(1e-3, 1 - mean_luminous_reflectance(s));
     const bool shots = s.solver() == SolverKind::overshooting;
-    const double enough = (shots ? unshot_of_shots : unshot_of_sweeps) * s.scene->solve.target_error * absorbed;
+    double enough = (shots ? unshot_of_shots : unshot_of_sweeps) * s.scene->solve.target_error;
+    if (shots) // of the emitted flux: each unit unshot is reflected on, 1 / (1 - rho_ave) times if nothing is lost
+        enough *= std::max(least_absorbed, 1 - mean_luminous_reflectance(s) * mean_lit_share(s));
     switch (s.solver()) {
     case SolverKind::jacobi:
         if (!p.system.jacobi_sweep(cancel)) return;
@@ -207,15 +247,17 @@ void step_matrix(State& s, const std::atomic<bool>& cancel, bool one_shot) {
     s.solving = true;
     s.status.unshot_share = p.system.unshot_share();
     s.status.residual = p.system.relative_residual();
-    s.status.estimated_error = std::min(1.0, std::hypot(s.status.unshot_share / absorbed, p.smoothing));
-    if (!shots) {
-        p.history.push_back(s.status.unshot_share);
-        if (std::string why = hopeless(s, enough); !why.empty()) return fail(s, std::move(why));
-    } else if (s.status.shots > most_shots * p.matrix.n) {
-        return fail(s, fmt::format("overshooting does not converge on this scene within {} shots", s.status.shots));
-    }
+    if (!shots) p.unshot_history.push_back(s.status.unshot_share);
+    const double missing = missing_share(s);
+    s.status.estimated_error = std::min(1.0, std::hypot(missing, p.smoothing));
     const bool known = shots || p.system.residual_known();
-    if (known && s.status.unshot_share <= enough) settle(s);
+    if (known && (shots ? s.status.unshot_share : missing) <= enough) return settle(s);
+    if (!shots) {
+        p.history.push_back(missing);
+        if (std::string why = hopeless(s, enough); !why.empty()) return fail(s, std::move(why));
+    } else {
+        if (std::string why = hopeless_shots(s, enough); !why.empty()) return fail(s, std::move(why));
+    }
 }
 
 std::vector<float> unshot_of_matrix(const State& s) {

@@ -14,15 +14,6 @@ namespace {
 
 constexpr std::uint32_t first_passes = 2; // before these a spread says little
 
-// Paths of a closed scene that absorbs nothing would go on for ever.
-bool absorbs_nothing(const State& s) {
-    for (const std::vector<double>& rho : s.material_rho)
-        if (rho.empty() || *std::min_element(rho.begin(), rho.end()) < 1 - 1e-7) return false;
-    for (const ErrorProbes::Point& p : s.probes.points)
-        if (!s.world->closest({p.origin, p.normal}).any()) return false;
-    return s.status.emitted_lumens > 0;
-}
-
 double relative_error(const State& s) {
     const std::uint32_t count = static_cast<std::uint32_t>(s.mesh.vertices.size());
     std::vector<float> illuminance(count), deviation(count);
@@ -56,6 +47,8 @@ void step_reference(State& s, const std::atomic<bool>& cancel) {
     if (absorbs_nothing(s)) return fail(s, no_finite_solution);
     const std::uint32_t before = s.traced->cursor;
     const bool done = trace_pass(s, cancel, *s.traced);
+    if (s.traced->cut_short)
+        return fail(s, "paths are reflected more than 20,000 times here: a reflectance is too close to 1");
     const std::uint32_t vertices = static_cast<std::uint32_t>(s.mesh.vertices.size());
     s.status.paths += std::uint64_t((done ? vertices : s.traced->cursor) - before) * path_batches;
     if (!done) {

@@ -3,6 +3,8 @@
 #include <chrono>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "core/solve/restriction.h"
 #include "core/solve/solution_steps.h"
 #include "core/transport/time_slice.h"
@@ -11,7 +13,8 @@ namespace lueur {
 
 namespace {
 
-constexpr double unshot_part = 0.2; // of the target error that flux left unshot may take
+constexpr double unshot_part = 0.1;            // of the target error that flux left unshot may take
+constexpr double most_shots_of_a_patch = 1000; // on average
 
 using State = Solution::State;
 
@@ -35,9 +38,20 @@ ChannelField direct_of(const State& s, const std::vector<float>& coarse_direct, 
     return h;
 }
 
+Shooting::Scenery scenery_of(const State& s) {
+    Shooting::Scenery scenery{s.origins, s.buried, {}, std::vector<std::uint8_t>(s.luminaire_exitance.size(), 1), 1};
+    for (const std::uint8_t lit : s.around.lit) scenery.closed.push_back(lit == burial_rays);
+    for (std::uint32_t v = 0; v < s.mesh.coarse_vertex_count; ++v)
+        if (const auto l = s.luminaire_of(s.mesh.vertices[v].surface, s.mesh.vertices[v].back); l && !scenery.closed[v])
+            scenery.luminaire_closed[*l] = 0;
+    scenery.lit_share = mean_lit_share(s);
+    return scenery;
+}
+
 } // namespace
 
 void start_shooting(State& s) {
+    if (absorbs_nothing(s)) return fail(s, no_finite_solution);
     if (!s.refined) {
         s.phase = SolvePhase::refine;
         return;
@@ -53,7 +67,7 @@ void start_shooting(State& s) {
     for (std::size_t l = 0; l < flux.size(); ++l)
         for (int c = 0; c < s.channels(); ++c)
             flux[l] += weight[c] * s.luminaire_exitance[l][c] * s.direct->emitters()[l].area;
-    s.shooting = Shooting(*s.world, s.mesh, s.origins, s.buried, std::move(direct), std::move(flux), rho_of_patches(s),
+    s.shooting = Shooting(*s.world, s.mesh, scenery_of(s), std::move(direct), std::move(flux), rho_of_patches(s),
                           std::move(weight), s.scene->solve.seed);
     s.solving = true;
     s.status.shots = 0;
@@ -64,22 +78,26 @@ void step_shooting(State& s, const std::atomic<bool>& cancel, bool one_shot) {
     s.status.stage = SolveStage::solving;
     const auto start = std::chrono::steady_clock::now();
     const std::uint64_t rays_before = s.shooting.rays();
-    // What is unshot would be reflected on and on: at most unshot / (1 - rho_ave) of the flux is missing.
-    const double absorbed = std::max(1e-3, 1 - s.shooting.mean_reflectance());
-    const double enough = unshot_part * s.scene->solve.target_error * absorbed;
+    const double enough = unshot_part * s.scene->solve.target_error;
+    const double most = most_shots_of_a_patch * s.shooting.patches();
+    // When it ends is counted in shots, never in time.
+    const auto hopeless = [&] { return s.shooting.shots_needed(enough) > most || s.shooting.shots() > most; };
     bool more = true;
     do {
         more = s.shooting.shoot();
-    } while (more && !one_shot && s.shooting.unshot_share() > enough && !cancel.load(std::memory_order_relaxed) &&
-             s.shooting.luminaires_shot() == s.direct->emitter_count() &&
+    } while (more && !one_shot && s.shooting.missing_share() > enough && !hopeless() &&
+             !cancel.load(std::memory_order_relaxed) && s.shooting.luminaires_shot() == s.direct->emitter_count() &&
              std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < step_seconds);
     s.status.rays += s.shooting.rays() - rays_before;
     s.status.shots = s.shooting.shots();
     s.status.shooting_patch = s.shooting.last_shooter();
     s.status.unshot_share = s.shooting.unshot_share();
-    const double unsolved = s.status.unshot_share / absorbed;
-    s.status.estimated_error = std::min(1.0, std::hypot(unsolved, s.direct->misfit()));
-    if (!more || s.shooting.unshot_share() <= enough) settle(s);
+    s.status.estimated_error = std::min(1.0, std::hypot(s.shooting.missing_share(), s.direct->misfit()));
+    if (!more || s.shooting.missing_share() <= enough) return settle(s);
+    if (hopeless())
+        fail(s, fmt::format("shooting would need about {:.2g} shots, {:.2g} are the limit: a reflectance is too close "
+                            "to 1",
+                            std::max(s.shooting.shots_needed(enough), most), most));
 }
 
 } // namespace lueur

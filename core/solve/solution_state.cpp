@@ -74,7 +74,11 @@ const ChannelField& Solution::State::indirect() const {
 }
 
 std::vector<float> Solution::State::ambient() const {
-    return solver() == SolverKind::shooting && solving ? shooting.ambient() : std::vector<float>{};
+    if (solver() != SolverKind::shooting || !solving) return {};
+    // It stands for light on its way. What little of it is left in the end may be a sun's, and would outshine a candle
+    // in a cellar.
+    if (phase == SolvePhase::settled) return std::vector<float>(static_cast<std::size_t>(channels()), 0.0f);
+    return shooting.ambient();
 }
 
 std::vector<float> Solution::State::unshot_at_vertices() const {

@@ -24,6 +24,12 @@ namespace lueur {
 
 struct TracedField; // traced_field.h
 
+// Faces that lie in the plane of another, lit from the same side: which of the two is seen is left to rounding.
+struct Overlap {
+    double area = 0; // m^2
+    std::uint32_t surface = no_index, other = no_index;
+};
+
 // Mesh to refine make what all solvers stand on; transport is a solver's own (rays, a matrix, links), solve its sweeps
 // or shots. A solver may begin before refine, which gives it a first picture early.
 enum class SolvePhase { mesh, sketch, light, burial, refine, transport, solve, settled, failed };
@@ -44,9 +50,11 @@ struct Solution::State {
     // of indirect light.
     std::vector<glm::vec3> origins;
     std::vector<std::uint8_t> buried;
-    std::vector<float> indirect_area;                        // m^2
-    Receivers receivers;                                     // who gathers for them
-    std::vector<float> distance;                             // of coarse vertices to what is around, m
+    std::vector<float> indirect_area; // m^2
+    Receivers receivers;              // who gathers for them
+    Surroundings around;              // of coarse vertices
+    Overlap overlap;
+    std::uint32_t overlap_cursor = 0;
     std::unique_ptr<IndirectRefinement> indirect_refinement; // cuts `mesh` first
     struct IndirectLevel {                                   // what came of it
         std::uint32_t vertices = 0, nodes = 0;
@@ -83,13 +91,18 @@ struct Solution::State {
     Shooting shooting;
     PatchSolve patch_solve; // Jacobi, Gauss-Seidel, overshooting
     std::unique_ptr<Hierarchy> hierarchy;
-    enum class ShowLeaves { no, cut, light, read, values };
+    // On their way, each on a thread of its own: their trees and tables take longer than a step may.
+    std::future<std::unique_ptr<Hierarchy>> making_hierarchy;
+    std::future<std::unique_ptr<LeafMesh>> making_leaf_mesh;
+    enum class ShowLeaves { no, make, cut, light, read, values };
     ShowLeaves show_leaves = ShowLeaves::no; // which part of it is going on
     std::unique_ptr<LeafMesh> leaf_mesh;     // cuts `mesh`, from the first round on
     std::uint32_t shown_round = 0;
     std::unique_ptr<FinalGather> final_gather;           // at the mesh's vertices, of the links of this round:
     std::uint32_t final_round = 0;                       //
-    bool final_done = false;                             // all its rays are traced
+    FinalGather::Count final_count;                      //
+    bool final_counted = false;                          // all its factors
+    bool final_done = false;                             // all its rays are traced, or it would be too large
     std::vector<glm::vec3> vertex_origins;               // of all vertices of the mesh
     std::shared_ptr<const HierarchyView> hierarchy_view; // as of the last round of refinement
     std::unique_ptr<TracedField> traced;                 // of the reference solver

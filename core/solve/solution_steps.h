@@ -17,6 +17,13 @@ namespace lueur {
 inline constexpr const char* no_finite_solution =
     "no finite solution: the scene is closed and every surface reflects everything; some reflectance must be below 1";
 
+// A closed scene in which every surface reflects everything: the radiosity would grow without end. Of geometry and
+// paints alone, so that a solver without rows can say so before it begins.
+bool absorbs_nothing(const Solution::State& s);
+// Of the flux that leaves the surfaces the share that meets a lit one, as far as the burial rays can tell: 1 in a
+// closed scene; mean over the area.
+double mean_lit_share(const Solution::State& s);
+
 void settle(Solution::State& s);
 void fail(Solution::State& s, std::string message);
 

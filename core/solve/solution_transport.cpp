@@ -1,4 +1,5 @@
 // What every solver stands on: mesh, rays' world, direct light, who is buried.
+#include "core/solve/settled_words.h"
 #include "core/solve/solution_steps.h"
 #include "core/transport/time_slice.h"
 
@@ -8,6 +9,7 @@ namespace {
 
 constexpr std::uint32_t fine_vertices = 20000; // that direct light may add: the window has to draw them
 constexpr std::uint32_t probe_count = 400;     // that tell its error
+constexpr double near_share = 0.01;            // of the coarse element size: what is nearer, elements do not resolve
 constexpr double receiver_cell = 0.3;          // of the coarse element size
 
 using State = Solution::State;
@@ -17,7 +19,7 @@ bool refine_indirect(State& s, const std::atomic<bool>& cancel) {
     if (s.indirect_level) return true;
     if (!s.indirect_refinement)
         s.indirect_refinement = std::make_unique<IndirectRefinement>(
-            *s.world, s.mesh, *s.direct, s.buried, s.distance,
+            *s.world, s.mesh, *s.direct, s.buried, s.around.distance,
             IndirectParams{0.04f, static_cast<float>(receiver_cell * s.element_size),
                            static_cast<float>(s.element_size / 8),
                            s.mesh.coarse_vertex_count + 1000 + s.receivers.count() / 8});
@@ -60,11 +62,14 @@ void step_mesh(State& s) {
     s.world = std::make_shared<const World>(s.mesh);
     s.origins = ray_origins(s.mesh, s.world->epsilon());
     s.buried.assign(s.mesh.coarse_vertex_count, 0);
+    s.around.lit.assign(s.mesh.coarse_vertex_count, 0);
+    s.around.back = s.around.near = s.around.lit;
+    s.around.distance.assign(s.mesh.coarse_vertex_count, 0);
+    s.around.near_distance = static_cast<float>(near_share * s.element_size);
     const DirectParams params{0.05f, static_cast<float>(s.element_size / 8), static_cast<float>(s.element_size),
                               s.mesh.coarse_vertex_count + fine_vertices};
     s.direct = std::make_unique<DirectTransport>(*s.world, s.mesh, make_emitters(*s.scene), params);
     s.coarse_area = s.indirect_area = vertex_areas(s.mesh);
-    s.distance.assign(s.mesh.coarse_vertex_count, 0);
     publish_mesh(s);
     s.cursor = 0;
     s.phase = SolvePhase::sketch;
@@ -82,11 +87,13 @@ void step_light(State& s, const std::atomic<bool>& cancel) {
 }
 
 void step_burial(State& s, const std::atomic<bool>& cancel) {
-    if (!run_slice(s.cursor, s.mesh.coarse_vertex_count, 64, cancel, [&](std::uint32_t first, std::uint32_t last) {
-            find_buried(*s.world, s.mesh, s.origins, first, last, s.buried, &s.distance);
+    if (s.cursor < s.mesh.coarse_vertex_count &&
+        !run_slice(s.cursor, s.mesh.coarse_vertex_count, 64, cancel, [&](std::uint32_t first, std::uint32_t last) {
+            find_buried(*s.world, s.mesh, s.origins, first, last, s.buried, &s.around);
         }))
         return;
-    s.status.rays += std::uint64_t(s.mesh.coarse_vertex_count) * burial_rays;
+    if (!find_overlap(s.mesh, *s.world, s.buried, cancel, s.overlap_cursor, s.overlap)) return;
+    s.status.rays += std::uint64_t(s.mesh.coarse_vertex_count) * burial_rays + s.mesh.coarse_element_count;
     s.receivers = make_receivers(*s.scene, s.mesh, s.buried, static_cast<float>(receiver_cell * s.element_size));
     s.status.matrix_patches = matrix_size(s.mesh, s.scene->solve.matrix_memory).patches;
     s.status.matrix_bytes = matrix_bytes(s.status.matrix_patches);

@@ -38,7 +38,8 @@ struct SolveStatus {
     std::uint64_t form_factor_cost = 0; // rays, pixels or kernel evaluations, for form factors between patches
     std::uint64_t matrix_bytes = 0;     // and the memory it takes, taken only by the solvers that keep one
     std::uint32_t links = 0, link_elements = 0, link_levels = 0, link_rounds = 0; // hierarchical
-    double error_bound = 0; // hierarchical: mean relative error if all links err the same way
+    std::uint64_t final_gather_bytes = 0; // hierarchical: memory of the last gather, stated before it is taken
+    double error_bound = 0;               // hierarchical: mean relative error if all links err the same way
     std::uint32_t receivers = 0, vertices = 0, elements = 0;
     std::uint32_t shooting_patch = no_index; // patch of the mesh that shot last; no_index: a luminaire, or none
     std::string wavelengths;                 // what the channels are, in a line

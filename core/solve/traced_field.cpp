@@ -30,20 +30,26 @@ TracedField make_traced_field(const Solution::State& s) {
 }
 
 bool trace_pass(const Solution::State& s, const std::atomic<bool>& cancel, TracedField& field) {
+    std::atomic<bool> cut_short{false};
     const bool done =
-        run_slice(field.cursor, static_cast<std::uint32_t>(s.mesh.vertices.size()), 8, cancel,
+        run_slice(field.cursor, static_cast<std::uint32_t>(s.mesh.vertices.size()), 1, cancel,
                   [&](std::uint32_t first, std::uint32_t last) {
                       for (std::uint32_t v = first; v < last; ++v) {
                           if (field.buried[v]) continue;
                           const std::span<double> sums(field.sums.data() + std::size_t(v) * std::size_t(field.channels),
                                                        std::size_t(field.channels));
                           const std::uint32_t seed = hash(s.scene->solve.seed, v);
-                          for (std::uint32_t batch = 0; batch < path_batches; ++batch)
+                          for (std::uint32_t batch = 0; batch < path_batches; ++batch) {
+                              if (cut_short.load(std::memory_order_relaxed)) return;
+                              bool endless = false;
                               field.batches[std::size_t(v) * path_batches + batch] +=
                                   trace_path(s, field.lights, field.origins[v], s.mesh.vertices[v].normal, seed, batch,
-                                             field.passes, sums);
+                                             field.passes, sums, &endless);
+                              if (endless) cut_short = true;
+                          }
                       }
                   });
+    field.cut_short = field.cut_short || cut_short;
     if (!done) return false;
     field.cursor = 0;
     ++field.passes;

@@ -19,6 +19,7 @@ struct TracedField {
     std::vector<double> sums;    // vertices * channels
     std::vector<double> batches; // vertices * path_batches: sums of illuminance, lx
     int channels = 0;
+    bool cut_short = false;               // a path had to be ended: all of this is of no use
     std::uint32_t passes = 0, cursor = 0; // complete ones, and the vertex where the next goes on
 
     std::uint32_t passes_at(std::uint32_t v) const { return passes + (v < cursor ? 1 : 0); }

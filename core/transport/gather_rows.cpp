@@ -29,18 +29,22 @@ std::uint32_t pick_vertex(const glm::uvec3& v, glm::vec3 w, const std::vector<st
 } // namespace
 
 void find_buried(const World& world, const Mesh& mesh, const std::vector<glm::vec3>& origins, std::uint32_t first,
-                 std::uint32_t last, std::vector<std::uint8_t>& buried, std::vector<float>* distance) {
+                 std::uint32_t last, std::vector<std::uint8_t>& buried, Surroundings* around) {
     for (std::uint32_t i = first; i < last; ++i) {
         const Frame frame(mesh.vertices[i].normal);
-        int back_faces = 0;
+        std::uint8_t back_faces = 0, lit = 0, near = 0;
         float nearness = 0;
         for (std::uint32_t k = 0; k < burial_rays; ++k) {
             const Hit hit = world.closest({origins[i], frame.world(cosine_direction(r2_point(k, {0, 0})))});
-            back_faces += hit.back_face;
+            back_faces = static_cast<std::uint8_t>(back_faces + hit.back_face);
+            lit = static_cast<std::uint8_t>(lit + (hit.element != no_index));
+            near = static_cast<std::uint8_t>(near + (around && hit.any() && hit.t < around->near_distance));
             if (hit.any()) nearness += 1 / std::max(hit.t, 1e-20f);
         }
         buried[i] = back_faces > most_back_faces;
-        if (distance) (*distance)[i] = nearness > 0 ? burial_rays / nearness : 1e30f;
+        if (!around) continue;
+        around->back[i] = back_faces, around->lit[i] = lit, around->near[i] = near;
+        around->distance[i] = nearness > 0 ? burial_rays / nearness : 1e30f;
     }
 }
 

@@ -21,11 +21,18 @@ inline constexpr int rays_per_pass = 32;
 inline constexpr std::uint32_t burial_rays = 16; // of find_buried, a vertex
 inline constexpr int independent_sets = 2;       // pass p belongs to set p % 2
 
+// What the burial rays of each vertex meet: so many a lit side, so many a black back; the others leave the scene. near:
+// how many meet something within `near_distance`, m.
+struct Surroundings {
+    std::vector<std::uint8_t> lit, back, near;
+    std::vector<float> distance; // to what is around, harmonic mean, m
+    float near_distance = 0;
+};
+
 // Coarse vertices whose rays mostly meet back faces lie inside a solid (a floor vertex under a block): they take no
-// part. Receivers in [first, last) of `origins`; the result is written to buried[first..last), and to `distance` the
-// harmonic mean of the distances to what is around, m.
+// part. Receivers in [first, last) of `origins`; the result is written to buried[first..last), and to `around` there.
 void find_buried(const World& world, const Mesh& mesh, const std::vector<glm::vec3>& origins, std::uint32_t first,
-                 std::uint32_t last, std::vector<std::uint8_t>& buried, std::vector<float>* distance = nullptr);
+                 std::uint32_t last, std::vector<std::uint8_t>& buried, Surroundings* around = nullptr);
 
 struct GatherPass {
     // receivers * rays_per_pass of each. The receiver each ray ended at, drawn among those of the vertices of the

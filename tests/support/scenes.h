@@ -31,17 +31,38 @@ public:
         return object;
     }
     // Axis-aligned box; inward: a room, each face its own object "name floor", ...; else one solid object.
+    // without: the number of a face that is left out, or -1.
     std::array<ObjectIndex, 6> room(const std::string& name, std::array<MaterialIndex, 6> materials, glm::vec3 low,
-                                    glm::vec3 high) {
+                                    glm::vec3 high, int without = -1) {
         std::array<ObjectIndex, 6> faces{};
         static const char* names[6] = {"floor", "ceiling", "left", "right", "front", "back"};
-        for (int f = 0; f < 6; ++f) faces[f] = polygon(name + " " + names[f], materials[f], face(f, low, high, true));
+        for (int f = 0; f < 6; ++f)
+            if (f != without) faces[f] = polygon(name + " " + names[f], materials[f], face(f, low, high, true));
         return faces;
     }
     ObjectIndex block(const std::string& name, MaterialIndex material, glm::vec3 low, glm::vec3 high) {
         ObjectIndex object{};
         for (int f = 0; f < 6; ++f) object = polygon(name, material, face(f, low, high, false));
         return object;
+    }
+    // A closed room of one paint with a square lamp of side 2 * half in its ceiling, as a part of it: nothing hides
+    // behind the lamp, so that the flux that arrives is lumen / (1 - rho), on all surfaces together.
+    LuminaireIndex lit_room(const std::string& name, MaterialIndex material, glm::vec3 low, glm::vec3 high, float half,
+                            double lumen) {
+        for (const int f : {0, 2, 3, 4, 5})
+            polygon(name + " wall " + std::to_string(f), material, face(f, low, high, true));
+        const glm::vec3 middle = 0.5f * (low + high);
+        const float x[4] = {low.x, middle.x - half, middle.x + half, high.x};
+        const float z[4] = {low.z, middle.z - half, middle.z + half, high.z};
+        ObjectIndex lamp{};
+        for (int i = 0; i < 3; ++i)
+            for (int k = 0; k < 3; ++k) {
+                const bool is_lamp = i == 1 && k == 1;
+                const ObjectIndex part = polygon(name + (is_lamp ? " lamp" : " ceiling"), material,
+                                                 face(1, {x[i], low.y, z[k]}, {x[i + 1], high.y, z[k + 1]}, true));
+                if (is_lamp) lamp = part;
+            }
+        return light(name + " lamp", {lamp}, PowerUnit::lumen, lumen);
     }
     LuminaireIndex light(const std::string& name, std::vector<ObjectIndex> objects, PowerUnit unit, double power,
                          EmissionSpectrum spectrum = Flat{}, EmitSide side = EmitSide::front) {
