@@ -17,7 +17,7 @@ void expect_calibrated(const Solution& solution, const char* what) {
     const auto field = solution.field();
     ASSERT_EQ(field->error.size(), field->irradiance_xyz.size());
     const auto points = test::true_vertices(solution, false, 250, 2048, 21);
-    const test::ErrorVerdict verdict = test::judge_vertices(*field, points);
+    const test::ErrorVerdict verdict = test::judge_vertices(solution, *field, points);
     printf("%s: true %.2f %%, estimated %.2f %%, %.1f %% inside\n", what, 100 * verdict.truth, 100 * verdict.estimate,
            100 * verdict.covered);
     EXPECT_GT(verdict.counted, 150) << what;
@@ -59,7 +59,8 @@ TEST(ErrorEstimate, SaysWhatIsMissingBeforeTheFirstBounce) {
         solution.step(test::never);
     ASSERT_FALSE(solution.state().solving);
     const auto field = solution.field();
-    const test::ErrorVerdict verdict = test::judge_vertices(*field, test::true_vertices(solution, true, 150, 1024, 22));
+    const test::ErrorVerdict verdict =
+        test::judge_vertices(solution, *field, test::true_vertices(solution, true, 150, 1024, 22));
     EXPECT_GT(verdict.truth, 0.2);
     EXPECT_GT(verdict.ratio(), 0.5);
     EXPECT_LT(verdict.ratio(), 2);
