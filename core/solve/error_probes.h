@@ -25,8 +25,8 @@ struct ErrorProbes {
         float area; // m^2 that it stands for: probes are denser where direct light is uncertain
         bool between;
     };
-    static constexpr int rays = 256, shadow_rays = 48; // a point; shadow rays a luminaire
-    static constexpr int sets = 2;                     // independent halves of both
+    static constexpr int rays = 512, shadow_rays = 48; // a point; shadow rays a luminaire
+    static constexpr int sets = 4;                     // independent parts of both, which know their own spread
 
     std::vector<Point> points;
     std::vector<float> direct;       // points * sets * emitters: D

@@ -77,20 +77,18 @@ struct Bench {
         const auto& points = solution.state().refined ? truth.fine : truth.coarse;
         const test::ErrorVerdict at_vertices = test::judge_vertices(solution, *field, points),
                                  scene = test::judge_scene(solution, *field, truth.surface);
-        const auto right = [](double ratio) { return ratio >= 0.5 && ratio <= 2; };
-        const auto marked = [&](double ratio) { return right(ratio) ? " " : "!"; };
+        const auto marked = [](const test::ErrorVerdict& verdict) { return verdict.right() ? " " : "!"; };
         // So many points know a share of 0.95 to this.
         const double enough = 0.95 - 2 * std::sqrt(0.95 * 0.05 / std::max(1, at_vertices.counted));
         tally.judged += 1;
-        tally.vertices += right(at_vertices.ratio());
+        tally.vertices += at_vertices.right();
         tally.covered += at_vertices.covered >= enough;
-        tally.scene += right(scene.ratio());
-        fmt::print("  {:<34} {:7.0f} {:7.2f} {:7.2f} {:6.2f}{} {:6.1f}{} {:7.2f} {:7.2f} {:6.2f}{} {:6.1f} {:6.2f}\n",
+        tally.scene += scene.right();
+        fmt::print("  {:<34} {:7.0f} {:7.2f} {:7.2f} {:6.3g}{} {:6.1f}{} {:7.2f} {:7.2f} {:6.3g}{} {:6.1f} {:6.2f}\n",
                    status.settled ? budget : budget + ", cut off", 1e3 * status.seconds, 100 * at_vertices.truth,
-                   100 * at_vertices.estimate, at_vertices.ratio(), marked(at_vertices.ratio()),
-                   100 * at_vertices.covered, at_vertices.covered < enough ? "!" : " ", 100 * scene.truth,
-                   100 * scene.estimate, scene.ratio(), marked(scene.ratio()), 100 * scene.covered,
-                   100 * scene.reference);
+                   100 * at_vertices.estimate, at_vertices.ratio(), marked(at_vertices), 100 * at_vertices.covered,
+                   at_vertices.covered < enough ? "!" : " ", 100 * scene.truth, 100 * scene.estimate, scene.ratio(),
+                   marked(scene), 100 * scene.covered, 100 * scene.reference);
         if (options.dump) {
             dump(budget + " vertices", at_vertices);
             dump(budget + " surface", scene);
