@@ -347,11 +347,16 @@ void estimate_error(const State& s, Field& field) {
             rays.add(indirect_found(r), r.model_rays, r.indirect_noise, r.weight);
         }
     const double direct_factor = direct.factor(1, 1), rays_factor = rays.factor(1, 0.4);
+    // What is wrong here is as wrong close by, in a corner or at the foot of a block: the probe reads that, and finds
+    // only what is not reflected back and forth.
+    const double reflectance = mean_luminous_reflectance(s);
     for (const Residual& r : probes)
-        if (!r.point->between)
-            bent.add(indirect_found(r) - rays_factor * r.model_rays, r.model_bent,
-                     rays_factor * r.model_rays + r.indirect_noise, r.weight);
-    const double bent_factor = known ? bent.factor(0.03, 0.15) : bent.factor(1, 3);
+        if (!r.point->between) {
+            const double unseen = 1 / std::pow(1 - std::min(0.7, reflectance * r.point->near), 2);
+            bent.add(unseen * (indirect_found(r) - rays_factor * r.model_rays), r.model_bent,
+                     unseen * (rays_factor * r.model_rays + r.indirect_noise), r.weight);
+        }
+    const double bent_factor = known ? bent.factor(0.03, 0.15) : bent.factor(1, 0.6);
     for (const Residual& r : probes)
         if (r.point->between) {
             const double all = r.direct + r.indirect;

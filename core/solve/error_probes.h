@@ -24,6 +24,8 @@ struct ErrorProbes {
         glm::vec3 weights;
         float area; // m^2 that it stands for: probes are denser where direct light is uncertain
         bool between;
+        float reach; // m, two elements
+        float near;  // share of its rays that end within reach, where the field errs as it does here
     };
     static constexpr int rays = 512, shadow_rays = 48; // a point; shadow rays a luminaire
     static constexpr int sets = 4;                     // independent parts of both, which know their own spread

@@ -67,6 +67,18 @@ void forget_other_solvers(State& s) {
     }
 }
 
+// The field's own estimate is the one that is told; why it is above the target, if it is. The number of rays follows
+// from the geometry (ray_budget.h), so that light that bends between the vertices may be what is left.
+void warn_of_error(SolveStatus& status, const SolveSettings& solve) {
+    if (!status.message.empty() || !(status.estimated_error > 1.1 * solve.target_error)) return;
+    const bool all_rays = status.rays_per_receiver + rays_per_pass * independent_sets > std::uint32_t(solve.max_rays);
+    status.message =
+        fmt::format("estimated error {:.1f} %, above the target of {:.1f} %: {}", 100 * status.estimated_error,
+                    100 * solve.target_error,
+                    all_rays ? fmt::format("{} rays a receiver are the limit set", status.rays_per_receiver)
+                             : "smaller elements would lower it");
+}
+
 } // namespace
 
 void start_solver(State& s, bool same_sources) {
@@ -90,11 +102,6 @@ void start_solver(State& s, bool same_sources) {
 }
 
 void settle(State& s) {
-    const double target = s.scene->solve.target_error;
-    if (s.status.message.empty() && s.status.estimated_error > 1.1 * target && s.solver() == SolverKind::gathering)
-        s.status.message =
-            fmt::format("estimated error {:.1f} %, above the target of {:.1f} %: {} rays a receiver are the limit set",
-                        100 * s.status.estimated_error, 100 * target, s.status.rays_per_receiver);
     s.phase = SolvePhase::settled;
     s.status.stage = SolveStage::settled;
     s.status.settled = true;
@@ -213,7 +220,10 @@ bool Solution::step(const std::atomic<bool>& cancel, bool one_shot) {
         s.edit_open = false;
         s.status.last_edit_seconds = s.status.seconds;
     }
-    if (s.phase == SolvePhase::settled) take_stock();
+    if (s.phase == SolvePhase::settled) {
+        take_stock();
+        if (s.solver() == SolverKind::gathering) warn_of_error(s.status, s.scene->solve);
+    }
     return s.phase != SolvePhase::settled && s.phase != SolvePhase::failed;
 }
 
