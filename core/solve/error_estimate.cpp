@@ -215,8 +215,8 @@ void set_relative_error(const ErrorLight& light, Field& field) {
 // Errors have longer tails than the normal distribution: so many standard deviations hold 95 % of the residuals at the
 // probed vertices, the probes' own noise counted in both.
 double interval_factor(const std::vector<Residual>& probes, const std::vector<float>& error) {
-    constexpr double normal = 1.96, most = 5;
-    std::vector<std::pair<double, double>> far; // standard deviations, area
+    constexpr double normal = 1.96, least = 2.3, most = 5; // least: Student's t where eight differences tell a variance
+    std::vector<std::pair<double, double>> far;            // standard deviations, area
     double all = 0, noise = 0, stated = 0;
     for (const Residual& r : probes) {
         if (r.point->between) continue;
@@ -232,9 +232,9 @@ double interval_factor(const std::vector<Residual>& probes, const std::vector<fl
         if ((inside += area) >= 0.95 * all) {
             // The noise of the probes is normal, and hides as much of the tail as it has of the variance.
             const double seen = std::max(0.3, stated / (stated + noise));
-            return std::clamp(normal + (deviations - normal) / seen, normal, most);
+            return std::clamp(normal + (deviations - normal) / seen, least, most);
         }
-    return normal;
+    return least;
 }
 
 // Paths know their own error; between the vertices they are interpolated as any other.
@@ -346,17 +346,18 @@ void estimate_error(const State& s, Field& field) {
             direct.add(r.direct * r.direct - r.direct_noise, r.model_direct, r.direct_noise, r.weight);
             rays.add(indirect_found(r), r.model_rays, r.indirect_noise, r.weight);
         }
-    const double direct_factor = direct.factor(1, 1), rays_factor = rays.factor(1, 0.4);
+    const double direct_factor = direct.factor(1, 1), rays_factor = rays.factor(1, 0.25);
     // What is wrong here is as wrong close by, in a corner or at the foot of a block: the probe reads that, and finds
-    // only what is not reflected back and forth.
+    // only what is not reflected back and forth. Form factors and patches err the same way further off too, about half.
     const double reflectance = mean_luminous_reflectance(s);
     for (const Residual& r : probes)
         if (!r.point->between) {
-            const double unseen = 1 / std::pow(1 - std::min(0.7, reflectance * r.point->near), 2);
+            const double alike = known ? r.point->near : 0.5 + 0.5 * r.point->near;
+            const double unseen = 1 / std::pow(1 - std::min(0.7, reflectance * alike), 2);
             bent.add(unseen * (indirect_found(r) - rays_factor * r.model_rays), r.model_bent,
                      unseen * (rays_factor * r.model_rays + r.indirect_noise), r.weight);
         }
-    const double bent_factor = known ? bent.factor(0.03, 0.15) : bent.factor(1, 0.6);
+    const double bent_factor = known ? bent.factor(0.03, 0.15) : bent.factor(1, 1);
     for (const Residual& r : probes)
         if (r.point->between) {
             const double all = r.direct + r.indirect;

@@ -17,6 +17,8 @@
 
 namespace lueur {
 
+inline constexpr std::uint32_t probe_count = 400; // that tell the error of a solution
+
 struct ErrorProbes {
     struct Point {
         glm::vec3 origin, normal;
