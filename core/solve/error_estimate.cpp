@@ -202,6 +202,79 @@ private:
     double found_ = 0, modelled_ = 0, square_ = 0;
 };
 
+// Light that is missing everywhere, lx: the mean residual is one reflection of it, all of it 1 / (1 - rho) times that.
+double missing_light(const State& s, const ErrorMesh& mesh, const ErrorLight& light,
+                     const std::vector<Residual>& probes, double rho) {
+    if (!probes.empty()) {
+        double mean = 0, area = 0, noise = 0;
+        for (const Residual& r : probes) {
+            mean += r.point->area * r.indirect;
+            area += r.point->area;
+        }
+        mean /= area;
+        for (const Residual& r : probes) {
+            const double w = r.point->area / area;
+            noise += w * w * (r.indirect - mean) * (r.indirect - mean);
+        }
+        // What a mean of as many probes may be by chance is no sign of anything missing.
+        return std::sqrt(std::max(0.0, mean * mean - noise)) / (1 - rho);
+    }
+    double flux = 0;
+    const std::vector<float> unshot = s.solving ? s.unshot_at_vertices() : std::vector<float>{};
+    for (std::uint32_t v = 0; v < light.total.size(); ++v) {
+        if (mesh.buried[v]) continue;
+        if (!s.solving)
+            flux += double(mesh.area[v]) * light.reflected[v];
+        else if (v < unshot.size())
+            flux += double(s.coarse_area[v]) * unshot[v];
+    }
+    return mesh.seen_area > 0 ? light.caught * flux / mesh.seen_area / (1 - rho) : 0;
+}
+
+// What variances of the model are to be multiplied with.
+struct Factors {
+    double direct = 1, rays = 1, bent = 1, between = 1;
+};
+
+Factors fit_model(const State& s, const std::vector<Residual>& probes, const std::vector<float>& missing_at,
+                  double rho) {
+    // What shadow rays and gather rays err by is known well, the rest is a guess.
+    Scale direct, rays, bent, between;
+    const bool known = !s.indirect_deviation.empty();
+    const auto indirect_found = [&](const Residual& r) {
+        const double of_missing = (1 - rho) * read(missing_at, *r.point);
+        return r.indirect * r.indirect - r.indirect_noise - of_missing * of_missing;
+    };
+    for (const Residual& r : probes)
+        if (!r.point->between) {
+            direct.add(r.direct * r.direct - r.direct_noise, r.model_direct, r.direct_noise, r.weight);
+            rays.add(indirect_found(r), r.model_rays, r.indirect_noise, r.weight);
+        }
+    Factors factors;
+    factors.direct = direct.factor(1, 1), factors.rays = rays.factor(1, 0.25);
+    // What is wrong here is as wrong close by, in a corner or at the foot of a block: the probe reads that, and finds
+    // only what is not reflected back and forth. Form factors and patches err the same way further off too, about half.
+    const double reflectance = mean_luminous_reflectance(s);
+    for (const Residual& r : probes)
+        if (!r.point->between) {
+            const double alike = known ? r.point->near : 0.5 + 0.5 * r.point->near;
+            const double unseen = 1 / std::pow(1 - std::min(0.7, reflectance * alike), 2);
+            bent.add(unseen * (indirect_found(r) - factors.rays * r.model_rays), r.model_bent,
+                     unseen * (factors.rays * r.model_rays + r.indirect_noise), r.weight);
+        }
+    factors.bent = known ? bent.factor(0.03, 0.15) : bent.factor(1, 1);
+    for (const Residual& r : probes)
+        if (r.point->between) {
+            const double all = r.direct + r.indirect;
+            const double at_vertices =
+                factors.direct * r.model_direct + factors.rays * r.model_rays + factors.bent * r.model_bent;
+            const double noise = r.direct_noise + r.indirect_noise;
+            between.add(all * all - noise - at_vertices, r.model_between, at_vertices + noise, r.weight);
+        }
+    factors.between = between.factor(1, 2);
+    return factors;
+}
+
 void set_relative_error(const ErrorLight& light, Field& field) {
     field.relative_error.assign(field.error.size(), 0);
     for (std::size_t v = 0; v < field.error.size(); ++v) {
@@ -298,84 +371,25 @@ void estimate_error(const State& s, Field& field) {
     const Model model = model_of(s, mesh, light);
     const std::vector<Residual> probes = residuals(s, light, model);
 
-    // Light that is missing everywhere: the mean residual is one reflection of it, all of it 1 / (1 - rho) times that.
     const double rho = std::min(0.999, mean_luminous_reflectance(s) * light.caught);
-    double missing = 0;
-    if (!probes.empty()) {
-        double mean = 0, area = 0, noise = 0;
-        for (const Residual& r : probes) {
-            mean += r.point->area * r.indirect;
-            area += r.point->area;
-        }
-        mean /= area;
-        for (const Residual& r : probes) {
-            const double w = r.point->area / area;
-            noise += w * w * (r.indirect - mean) * (r.indirect - mean);
-        }
-        // What a mean of as many probes may be by chance is no sign of anything missing.
-        missing = std::sqrt(std::max(0.0, mean * mean - noise)) / (1 - rho);
-    } else {
-        double flux = 0;
-        const std::vector<float> unshot = s.solving ? s.unshot_at_vertices() : std::vector<float>{};
-        for (std::uint32_t v = 0; v < count; ++v) {
-            if (mesh.buried[v]) continue;
-            if (!s.solving)
-                flux += double(mesh.area[v]) * light.reflected[v];
-            else if (v < unshot.size())
-                flux += double(s.coarse_area[v]) * unshot[v];
-        }
-        missing = mesh.seen_area > 0 ? light.caught * flux / mesh.seen_area / (1 - rho) : 0;
-    }
-
+    const double missing = missing_light(s, mesh, light, probes, rho);
     // It is missing in proportion to what is there already, as far as anything is.
     std::vector<float> missing_at(count);
     const double mean_indirect = std::max(0.0, light.mean_indirect);
     for (std::size_t v = 0; v < count && missing > 0; ++v)
         missing_at[v] = static_cast<float>(missing * (std::max(0.0, double(light.indirect[v])) + missing) /
                                            (mean_indirect + missing));
+    const Factors factors = fit_model(s, probes, missing_at, rho);
 
-    // What shadow rays and gather rays err by is known well, the rest is a guess.
-    Scale direct, rays, bent, between;
-    const bool known = !s.indirect_deviation.empty();
-    const auto indirect_found = [&](const Residual& r) {
-        const double of_missing = (1 - rho) * read(missing_at, *r.point);
-        return r.indirect * r.indirect - r.indirect_noise - of_missing * of_missing;
-    };
-    for (const Residual& r : probes)
-        if (!r.point->between) {
-            direct.add(r.direct * r.direct - r.direct_noise, r.model_direct, r.direct_noise, r.weight);
-            rays.add(indirect_found(r), r.model_rays, r.indirect_noise, r.weight);
-        }
-    const double direct_factor = direct.factor(1, 1), rays_factor = rays.factor(1, 0.25);
-    // What is wrong here is as wrong close by, in a corner or at the foot of a block: the probe reads that, and finds
-    // only what is not reflected back and forth. Form factors and patches err the same way further off too, about half.
-    const double reflectance = mean_luminous_reflectance(s);
-    for (const Residual& r : probes)
-        if (!r.point->between) {
-            const double alike = known ? r.point->near : 0.5 + 0.5 * r.point->near;
-            const double unseen = 1 / std::pow(1 - std::min(0.7, reflectance * alike), 2);
-            bent.add(unseen * (indirect_found(r) - rays_factor * r.model_rays), r.model_bent,
-                     unseen * (rays_factor * r.model_rays + r.indirect_noise), r.weight);
-        }
-    const double bent_factor = known ? bent.factor(0.03, 0.15) : bent.factor(1, 1);
-    for (const Residual& r : probes)
-        if (r.point->between) {
-            const double all = r.direct + r.indirect;
-            const double at_vertices =
-                direct_factor * r.model_direct + rays_factor * r.model_rays + bent_factor * r.model_bent;
-            const double noise = r.direct_noise + r.indirect_noise;
-            between.add(all * all - noise - at_vertices, r.model_between, at_vertices + noise, r.weight);
-        }
-    const double between_factor = between.factor(1, 2);
     const WavelengthError& channels = s.choice.illuminance_error;
     for (std::size_t v = 0; v < count; ++v) {
         const double wavelengths =
             std::abs(channels.direct * light.direct[v]) + std::abs(channels.reflected * light.indirect[v]);
-        const double variance = direct_factor * model.direct[v] + rays_factor * model.rays[v] +
-                                bent_factor * model.bent[v] + double(missing_at[v]) * missing_at[v] +
+        const double variance = factors.direct * model.direct[v] + factors.rays * model.rays[v] +
+                                factors.bent * model.bent[v] + double(missing_at[v]) * missing_at[v] +
                                 wavelengths * wavelengths + double(light.unlit[v]) * light.unlit[v];
         field.error[v] = static_cast<float>(std::sqrt(variance));
-        field.interpolation_error[v] = static_cast<float>(std::sqrt(between_factor * model.between[v]));
+        field.interpolation_error[v] = static_cast<float>(std::sqrt(factors.between * model.between[v]));
     }
     std::vector<float> area = mesh.area;
     std::vector<std::uint8_t> left_out = mesh.buried;
