@@ -24,7 +24,7 @@ void make_lists(std::uint32_t count, const std::vector<std::pair<std::uint32_t, 
     for (const auto& [owner, item] : belongs) of[next[owner]++] = item;
 }
 
-// The same where a mesh's vertices are touched by two sums in parallel.
+// Of the terms in each vertex's list; 0 where it is empty.
 template <typename Term>
 std::vector<float> mean_of_squares(std::size_t count, const std::vector<std::uint32_t>& first, const Term& term) {
     std::vector<float> mean(count, 0);

@@ -1,5 +1,10 @@
 // The estimated error against the true one: the yardstick is traced paths, whose own variance is subtracted. All asset
 // scenes and more budgets: tests/bench/error_calibration.cpp.
+//
+// What does not hold and is not asked here: in the office 84 % of the true values at vertices lie inside (64 rays; true
+// 20 %, estimated 13 %). Its probes find half of the error there: on window frames before the sky and on furniture of a
+// few elements a vertex and the surfaces its probe's rays read are wrong together, and those few errors are of the size
+// of the light itself.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
