@@ -32,7 +32,7 @@ Stage stage_of_settings(const Scene& scene, const SolveSettings& after) {
     // Rays already traced were drawn from another sequence, or are more than are allowed now.
     if (after.seed != before.seed || after.max_rays < before.max_rays) return Stage::transport;
     // Form factors and links are kept by the solvers that use them; to the others these settings are nothing.
-    const SolverKind solver = chosen_solver(scene, after);
+    const SolverKind solver = chosen_solver(after);
     if (solver == chosen_solver(scene)) {
         const bool other_factors = after.form_factors != before.form_factors ||
                                    after.form_factor_samples != before.form_factor_samples ||

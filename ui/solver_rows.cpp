@@ -205,7 +205,7 @@ bool matrix_row(const Snapshot& snapshot, UiState& state, SolveSettings& solve) 
 bool solver_rows(const Snapshot& snapshot, UiState& state, SolveSettings& solve) {
     row_label(state, "Solver");
     bool any = word_combo(state, "solver", all_solvers, solver_name, solver_tip, solve.solver);
-    const SolverKind solver = snapshot.scene ? chosen_solver(*snapshot.scene, solve) : solve.solver;
+    const SolverKind solver = chosen_solver(solve);
     if (uses_form_factors(solver)) any = form_factor_rows(state, solve) || any;
     if (keeps_matrix(solver)) any = matrix_row(snapshot, state, solve) || any;
     if (solver == SolverKind::hierarchical) {

@@ -92,7 +92,7 @@ struct Shader {
 // Irradiance of all vertices in channels: indirect light of the coarse ones, interpolated, and direct light.
 ChannelField irradiance_channels(const Solution::State& s, std::vector<float>& unshot) {
     const Mesh& mesh = s.mesh;
-    const std::uint32_t count = static_cast<std::uint32_t>(mesh.vertices.size()), coarse = mesh.coarse_vertex_count;
+    const std::uint32_t count = static_cast<std::uint32_t>(mesh.vertices.size());
     const int channels = s.channels();
     ChannelField h(count, channels);
     unshot.assign(count, 0);
@@ -113,12 +113,13 @@ ChannelField irradiance_channels(const Solution::State& s, std::vector<float>& u
             for (std::uint32_t i = range.begin(); i < range.end(); ++i)
                 for (int k = 0; k < channels; ++k) h[i][k] = indirect[i][k] + (ambient.empty() ? 0 : ambient[k]);
         });
-        std::vector<glm::uvec3> coarse_elements;
-        for (std::uint32_t e = 0; e < mesh.coarse_element_count; ++e) coarse_elements.push_back(mesh.nodes[e].vertices);
-        if (!at_all_vertices) fill_buried(coarse_elements, s.buried, h);
-        for (std::uint32_t v = coarse; v < count; ++v) { // parents come first
+        if (!at_all_vertices) fill_buried(elements_of_level(mesh, indirect.count), s.buried, h);
+        for (std::uint32_t v = indirect.count; v < count; ++v) { // parents come first
             const auto& p = mesh.vertices[v].parents;
-            for (int k = 0; k < channels && !at_all_vertices; ++k) h[v][k] = 0.5f * (h[p[0]][k] + h[p[1]][k]);
+            for (int k = 0; k < channels; ++k) h[v][k] = 0.5f * (h[p[0]][k] + h[p[1]][k]);
+        }
+        for (auto v = static_cast<std::uint32_t>(left.size()); v < count; ++v) {
+            const auto& p = mesh.vertices[v].parents;
             unshot[v] = 0.5f * (unshot[p[0]] + unshot[p[1]]);
         }
     }
@@ -193,8 +194,12 @@ std::vector<double> irradiance_at(const Solution::State& s, std::uint32_t elemen
     }
     if (s.solving && s.solver() != SolverKind::reference) {
         const bool at_all_vertices = s.indirect().count == s.mesh.vertices.size();
-        const glm::uvec3 corners = at_all_vertices ? at_point.vertices : s.mesh.nodes[element].vertices;
-        const glm::vec3 weights = at_all_vertices ? at_point.weights : glm::vec3(1 - b1 - b2, b1, b2);
+        const Located read = at_all_vertices ? at_point
+                             : s.indirect().count > s.mesh.coarse_vertex_count
+                                 ? locate_indirect(s.mesh, element, b1, b2)
+                                 : Located{s.mesh.nodes[element].vertices, {1 - b1 - b2, b1, b2}};
+        const glm::uvec3 corners = read.vertices;
+        const glm::vec3 weights = read.weights;
         const auto counts = [&](int k) { return at_all_vertices || !s.buried[corners[k]]; };
         float sum = 0;
         for (int k = 0; k < 3; ++k)

@@ -47,9 +47,17 @@ void pool(std::span<const glm::uvec3> elements, const std::vector<std::uint8_t>&
     for (std::size_t v = 0; v < variance.size(); ++v) variance[v] *= square(v);
 }
 
+// At how many vertices, the first ones, indirect light is solved; the others interpolate it.
+std::uint32_t solved_vertices(const State& s) {
+    const std::uint32_t count = s.solving ? s.indirect().count : 0;
+    return count > 0 && count < s.mesh.vertices.size() ? count : s.mesh.coarse_vertex_count;
+}
+
 const ErrorMesh& error_mesh_of(const State& s) {
     std::vector<std::uint8_t> buried = s.all_buried();
-    if (!s.error_mesh.is_of(s.mesh, buried)) s.error_mesh = make_error_mesh(s.mesh, std::move(buried), s.buried);
+    const std::uint32_t level = solved_vertices(s);
+    if (!s.error_mesh.is_of(s.mesh, level, buried))
+        s.error_mesh = make_error_mesh(s.mesh, level, std::move(buried), s.buried);
     return s.error_mesh;
 }
 
@@ -59,19 +67,22 @@ struct Model {
     std::vector<float> rays;    // of what a solver knows of its own indirect light
     std::vector<float> bent;    // of indirect light, as far as it differs from vertex to vertex
     std::vector<float> between; // added between the vertices
+    bool known = false;         // the solver says something of its own error
 };
 
-// Indirect light is solved at the coarse vertices; others interpolate it. Halfway between two vertices their errors are
-// half averaged away, and a bent field is missed.
+// Indirect light is solved at the vertices of one level; others interpolate it. Halfway between two vertices their
+// errors are half averaged away, and a bent field is missed.
 void model_indirect(const State& s, const ErrorMesh& mesh, const ErrorLight& light, Model& model) {
-    const std::uint32_t coarse = s.mesh.coarse_vertex_count, count = static_cast<std::uint32_t>(light.total.size());
+    const std::uint32_t coarse = mesh.level, count = static_cast<std::uint32_t>(light.total.size());
     model.rays.assign(count, 0);
     model.bent.assign(count, 0);
     if (!s.solving) return;
     const std::span<const float> value(light.indirect.data(), coarse);
     const std::vector<float> near = mesh.coarse.neighbour_differences(value), bend = mesh.coarse.at_vertices(value);
     const double least = dark_share * light.mean;
-    if (!s.indirect_deviation.empty()) {
+    // After the mesh has changed what was known of the level before is of no use.
+    model.known = s.indirect_deviation.size() >= coarse;
+    if (model.known) {
         for (std::uint32_t v = 0; v < coarse; ++v) model.rays[v] = s.indirect_deviation[v] * s.indirect_deviation[v];
         pool(mesh.coarse_elements, s.buried, value, least, std::span(model.rays.data(), coarse));
     }
@@ -89,12 +100,12 @@ void model_indirect(const State& s, const ErrorMesh& mesh, const ErrorLight& lig
         model.bent[v] = 0.5f * (model.bent[p[0]] + model.bent[p[1]]);
         missed[v] = 0.5f * (missed[p[0]] + missed[p[1]]);
     }
-    std::vector<float>& known = s.indirect_deviation.empty() ? model.bent : model.rays;
-    for (std::uint32_t v = coarse; v < count; ++v) known[v] += 0.0625f * missed[v];
+    std::vector<float>& missing = model.known ? model.rays : model.bent;
+    for (std::uint32_t v = coarse; v < count; ++v) missing[v] += 0.0625f * missed[v];
 }
 
 Model model_of(const State& s, const ErrorMesh& mesh, const ErrorLight& light) {
-    Model model{light.direct_variance, {}, {}, mesh.fine.at_vertices(light.total)};
+    Model model{light.direct_variance, {}, {}, mesh.fine.at_vertices(light.total), false};
     model_indirect(s, mesh, light, model);
     for (float& b : model.between) b = 0.0625f * b * b; // a quarter of the bend
     return model;
@@ -226,7 +237,7 @@ double missing_light(const State& s, const ErrorMesh& mesh, const ErrorLight& li
         if (!s.solving)
             flux += double(mesh.area[v]) * light.reflected[v];
         else if (v < unshot.size())
-            flux += double(s.coarse_area[v]) * unshot[v];
+            flux += double(unshot.size() == s.indirect_area.size() ? s.indirect_area[v] : s.coarse_area[v]) * unshot[v];
     }
     return mesh.seen_area > 0 ? light.caught * flux / mesh.seen_area / (1 - rho) : 0;
 }
@@ -236,11 +247,10 @@ struct Factors {
     double direct = 1, rays = 1, bent = 1, between = 1;
 };
 
-Factors fit_model(const State& s, const std::vector<Residual>& probes, const std::vector<float>& missing_at,
-                  double rho) {
+Factors fit_model(const State& s, const Model& model, const std::vector<Residual>& probes,
+                  const std::vector<float>& missing_at, double rho) {
     // What shadow rays and gather rays err by is known well, the rest is a guess.
     Scale direct, rays, bent, between;
-    const bool known = !s.indirect_deviation.empty();
     const auto indirect_found = [&](const Residual& r) {
         const double of_missing = (1 - rho) * read(missing_at, *r.point);
         return r.indirect * r.indirect - r.indirect_noise - of_missing * of_missing;
@@ -257,12 +267,12 @@ Factors fit_model(const State& s, const std::vector<Residual>& probes, const std
     const double reflectance = mean_luminous_reflectance(s);
     for (const Residual& r : probes)
         if (!r.point->between) {
-            const double alike = known ? r.point->near : 0.5 + 0.5 * r.point->near;
+            const double alike = model.known ? r.point->near : 0.5 + 0.5 * r.point->near;
             const double unseen = 1 / std::pow(1 - std::min(0.7, reflectance * alike), 2);
             bent.add(unseen * (indirect_found(r) - factors.rays * r.model_rays), r.model_bent,
                      unseen * (factors.rays * r.model_rays + r.indirect_noise), r.weight);
         }
-    factors.bent = known ? bent.factor(0.03, 0.15) : bent.factor(1, 1);
+    factors.bent = model.known ? bent.factor(0.03, 0.15) : bent.factor(1, 1);
     for (const Residual& r : probes)
         if (r.point->between) {
             const double all = r.direct + r.indirect;
@@ -379,7 +389,7 @@ void estimate_error(const State& s, Field& field) {
     for (std::size_t v = 0; v < count && missing > 0; ++v)
         missing_at[v] = static_cast<float>(missing * (std::max(0.0, double(light.indirect[v])) + missing) /
                                            (mean_indirect + missing));
-    const Factors factors = fit_model(s, probes, missing_at, rho);
+    const Factors factors = fit_model(s, model, probes, missing_at, rho);
 
     const WavelengthError& channels = s.choice.illuminance_error;
     for (std::size_t v = 0; v < count; ++v) {

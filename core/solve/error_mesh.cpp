@@ -104,10 +104,11 @@ std::vector<float> Bends::neighbour_differences(std::span<const float> value) co
     });
 }
 
-ErrorMesh make_error_mesh(const Mesh& mesh, std::vector<std::uint8_t> buried,
+ErrorMesh make_error_mesh(const Mesh& mesh, std::uint32_t level, std::vector<std::uint8_t> buried,
                           const std::vector<std::uint8_t>& buried_coarse) {
     ErrorMesh made;
     made.element_count = mesh.elements.size();
+    made.level = level;
     made.buried = std::move(buried);
     made.area = vertex_areas(mesh);
     made.rim.assign(made.buried.size(), 0);
@@ -117,8 +118,7 @@ ErrorMesh make_error_mesh(const Mesh& mesh, std::vector<std::uint8_t> buried,
     for (std::size_t v = 0; v < made.area.size(); ++v)
         if (!made.buried[v]) made.seen_area += made.area[v];
     made.fine = Bends(mesh.elements, mesh, made.buried);
-    for (std::uint32_t e = 0; e < mesh.coarse_element_count; ++e)
-        made.coarse_elements.push_back(mesh.nodes[e].vertices);
+    made.coarse_elements = elements_of_level(mesh, level);
     made.coarse = Bends(made.coarse_elements, mesh, buried_coarse);
     return made;
 }

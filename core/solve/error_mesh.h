@@ -35,6 +35,7 @@ private:
 struct ErrorMesh {
     // What it was made for.
     std::size_t element_count = 0;
+    std::uint32_t level = 0; // vertices at which indirect light is solved, the first ones
     std::vector<std::uint8_t> buried;
 
     std::vector<float> area;       // m^2 of each vertex
@@ -43,13 +44,13 @@ struct ErrorMesh {
     Bends fine, coarse;
     std::vector<glm::uvec3> coarse_elements;
 
-    bool is_of(const Mesh& mesh, const std::vector<std::uint8_t>& buried_now) const {
-        return element_count == mesh.elements.size() && buried == buried_now;
+    bool is_of(const Mesh& mesh, std::uint32_t level_now, const std::vector<std::uint8_t>& buried_now) const {
+        return element_count == mesh.elements.size() && level == level_now && buried == buried_now;
     }
 };
 
-// buried: all vertices; buried_coarse: those of the coarse mesh alone.
-ErrorMesh make_error_mesh(const Mesh& mesh, std::vector<std::uint8_t> buried,
+// buried: all vertices; buried_coarse: those of the level alone.
+ErrorMesh make_error_mesh(const Mesh& mesh, std::uint32_t level, std::vector<std::uint8_t> buried,
                           const std::vector<std::uint8_t>& buried_coarse);
 
 } // namespace lueur

@@ -39,6 +39,7 @@ public:
     bool sweep(const std::vector<GatherPass>& passes,
                const std::atomic<bool>& cancel); // false when cancelled (nothing changed)
 
+    std::uint32_t count() const { return n_; } // receivers
     double relative_residual() const; // worst channel: |r| / |b|, area-weighted 2-norms; 0 for a channel without light
     bool diverged() const { return diverged_; }
 

@@ -28,8 +28,8 @@ ChannelField rho_of_receivers(const State& s) {
 // Area that each receiver stands for, m^2; 0 for buried ones.
 std::vector<float> receiver_areas(const State& s) {
     std::vector<float> area(s.receivers.count(), 0);
-    for (std::uint32_t v = 0; v < s.mesh.coarse_vertex_count; ++v)
-        if (!s.buried[v]) area[s.receivers.of_vertex[v]] += s.coarse_area[v];
+    for (std::uint32_t v = 0; v < s.receivers.of_vertex.size(); ++v)
+        if (!s.buried[v]) area[s.receivers.of_vertex[v]] += s.indirect_area[v];
     return area;
 }
 
@@ -102,8 +102,8 @@ void update_error(State& s) {
     }
 
     const std::vector<float> variance = ray_variances(s.passes, radiosity);
-    s.indirect_deviation.resize(s.mesh.coarse_vertex_count);
-    for (std::uint32_t v = 0; v < s.mesh.coarse_vertex_count; ++v)
+    s.indirect_deviation.resize(s.receivers.of_vertex.size());
+    for (std::uint32_t v = 0; v < s.indirect_deviation.size(); ++v)
         s.indirect_deviation[v] = std::sqrt(variance[s.receivers.of_vertex[v]]);
     const double rays = ray_error(s.passes, radiosity, direct, receiver_areas(s));
     const double unsolved = s.status.unshot_share / std::max(1e-3, 1 - mean_luminous_reflectance(s));
@@ -137,9 +137,9 @@ void gather_direct(State& s, bool new_rays) {
     const std::uint32_t n = s.receivers.count();
     const std::atomic<bool> never{false};
     s.gathered_direct = ChannelField(n, s.channels());
-    s.indirect_irradiance = ChannelField(s.mesh.coarse_vertex_count, s.channels());
+    s.indirect_irradiance = ChannelField(s.mesh.indirect_vertex_count, s.channels());
     apply_rows(s.passes, RayEnds::fine, reflected_direct(s), s.gathered_direct, never);
-    if (!s.solving) s.system = GatherSystem(n, s.channels(), receiver_areas(s));
+    if (!s.solving || s.system.count() != n) s.system = GatherSystem(n, s.channels(), receiver_areas(s));
     if (new_rays) s.system.set_rows(s.passes);
     s.system.set_sources(rho_of_receivers(s), s.gathered_direct);
     s.solving = true;
@@ -242,7 +242,7 @@ double gathering_progress(const State& s) {
 }
 
 std::vector<float> unshot_of_gathering(const State& s) {
-    std::vector<float> unshot(s.mesh.coarse_vertex_count);
+    std::vector<float> unshot(s.indirect_irradiance.count);
     for (std::uint32_t v = 0; v < unshot.size(); ++v)
         unshot[v] = static_cast<float>(std::abs(luminous(s, s.system.residual()[s.receivers.of_vertex[v]])));
     return unshot;

@@ -48,7 +48,8 @@ void direct_at(const State& s, glm::vec3 position, glm::vec3 normal, float* fact
     }
     std::uint64_t rays = 0;
     for (std::size_t l = 0; l < emitters; ++l)
-        factors[l] = direct_form_factor(*s.world, s.direct->emitters()[l], position, normal, rays);
+        factors[l] = direct_form_factor(*s.world, s.direct->emitters()[l], position, normal,
+                                        VisibilityDetail::whole_cells, rays);
 }
 
 void show_links(State& s) {

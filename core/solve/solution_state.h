@@ -19,6 +19,7 @@
 #include "core/solve/wavelengths_choice.h"
 #include "core/transport/direct_transport.h"
 #include "core/transport/gather_rows.h"
+#include "core/transport/indirect_refinement.h"
 
 namespace lueur {
 
@@ -40,9 +41,21 @@ struct Solution::State {
     std::shared_ptr<const Mesh> published_mesh; // as of the last level
     std::shared_ptr<const World> world;
     std::unique_ptr<DirectTransport> direct;
-    std::vector<glm::vec3> origins;   // of coarse vertices
-    std::vector<std::uint8_t> buried; // coarse vertices
-    Receivers receivers;              // who gathers for the coarse vertices
+    // Of the vertices where indirect light is gathered: the coarse ones, and once `refined` those of the mesh's level
+    // of indirect light.
+    std::vector<glm::vec3> origins;
+    std::vector<std::uint8_t> buried;
+    std::vector<float> indirect_area;                        // m^2
+    Receivers receivers;                                     // who gathers for them
+    std::vector<float> distance;                             // of coarse vertices to what is around, m
+    std::unique_ptr<IndirectRefinement> indirect_refinement; // cuts `mesh` first
+    struct IndirectLevel {                                   // what came of it
+        std::uint32_t vertices = 0, nodes = 0;
+        std::vector<glm::uvec3> elements;
+        std::vector<glm::vec3> origins;
+        std::vector<std::uint8_t> buried;
+    };
+    std::optional<IndirectLevel> indirect_level; // not in use yet: rows that are there refer to the coarse one
     std::vector<GatherPass> passes;
     bool pass_open = false;          // the last pass is being traced
     std::uint32_t passes_wanted = 1; // from the geometry alone: see passes_for
@@ -53,7 +66,7 @@ struct Solution::State {
     ErrorProbes probes;             // where the solution is asked whether it is right
     mutable ErrorMesh error_mesh;   // made when a field is first asked for its error, and kept as long as the mesh
 
-    // What a solver knows of the error of its own indirect light, lx at the coarse vertices, one standard deviation;
+    // What a solver knows of the error of its own indirect light, lx where it is gathered, one standard deviation;
     // empty: nothing. Error estimates start from it (error_estimate.h).
     std::vector<float> indirect_deviation;
 
@@ -68,7 +81,7 @@ struct Solution::State {
 
     GatherSystem system;
     ChannelField gathered_direct;     // irradiance at receivers after one reflection of direct light
-    ChannelField indirect_irradiance; // gathered_direct + W U at the coarse vertices, refreshed after sweeps
+    ChannelField indirect_irradiance; // gathered_direct + W U where it is gathered, refreshed after sweeps
     Shooting shooting;
     PatchSolve patch_solve; // Jacobi, Gauss-Seidel, overshooting
     std::unique_ptr<Hierarchy> hierarchy;
@@ -92,13 +105,14 @@ struct Solution::State {
     std::uint32_t material_of(std::uint32_t surface) const;
     std::optional<std::size_t> luminaire_of(std::uint32_t surface, bool back) const; // that shines on this side
     bool luminaire_is_lit(std::size_t luminaire) const;                              // shooting: it has shot
-    // Irradiance at coarse vertices, or (hierarchical) at all.
+    // Irradiance at coarse vertices, at those of the level of indirect light (gathering), or at all (hierarchical).
     const ChannelField& indirect() const;
-    std::vector<float> ambient() const;            // irradiance to be added for display; only shooting has some
-    std::vector<float> unshot_at_vertices() const; // luminous exitance at coarse vertices that is still to be sent on
-    bool direct_light_apart() const;               // all of it shown by DirectTransport, not by the solver
-    SolverKind solver() const;                     // that is at work, never automatic
-    bool is_traced() const;                        // fine vertices have their whole irradiance from paths
+    std::vector<float> ambient() const; // irradiance to be added for display; only shooting has some
+    std::vector<float>
+    unshot_at_vertices() const;      // luminous exitance that is still to be sent on, at the first vertices
+    bool direct_light_apart() const; // all of it shown by DirectTransport, not by the solver
+    SolverKind solver() const;       // that is at work, never automatic
+    bool is_traced() const;          // fine vertices have their whole irradiance from paths
 
     State();
     ~State();

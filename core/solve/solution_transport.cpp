@@ -11,6 +11,39 @@ constexpr double receiver_cell = 0.3;          // of the coarse element size
 
 using State = Solution::State;
 
+// Cuts the mesh where indirect light needs more receivers than the coarse vertices; true at the end.
+bool refine_indirect(State& s, const std::atomic<bool>& cancel) {
+    if (s.indirect_level) return true;
+    if (!s.indirect_refinement)
+        s.indirect_refinement = std::make_unique<IndirectRefinement>(
+            *s.world, s.mesh, *s.direct, s.buried, s.distance,
+            IndirectParams{0.04f, static_cast<float>(receiver_cell * s.element_size),
+                           static_cast<float>(s.element_size / 8),
+                           s.mesh.coarse_vertex_count + 1000 + s.receivers.count() / 8});
+    const std::uint64_t rays = s.indirect_refinement->rays();
+    const bool done = s.indirect_refinement->step(cancel);
+    s.status.rays += s.indirect_refinement->rays() - rays;
+    if (s.direct->lit_vertices() != s.mesh.vertices.size()) s.direct->follow_mesh();
+    if (!done) return false;
+    s.indirect_level.emplace(static_cast<std::uint32_t>(s.mesh.vertices.size()),
+                             static_cast<std::uint32_t>(s.mesh.nodes.size()), s.mesh.elements,
+                             s.indirect_refinement->origins(), s.indirect_refinement->buried());
+    s.indirect_refinement.reset();
+    return true;
+}
+
+void take_indirect_level(State& s) {
+    Solution::State::IndirectLevel level = std::move(*s.indirect_level);
+    s.mesh.indirect_vertex_count = level.vertices;
+    s.mesh.indirect_node_count = level.nodes;
+    s.mesh.indirect_elements = std::move(level.elements);
+    s.indirect_area = vertex_areas(s.mesh, s.mesh.indirect_elements, level.vertices);
+    s.origins.insert(s.origins.end(), level.origins.begin() + s.mesh.coarse_vertex_count, level.origins.end());
+    s.buried.insert(s.buried.end(), level.buried.begin() + s.mesh.coarse_vertex_count, level.buried.end());
+    add_receivers(level.vertices, s.buried, s.receivers);
+    s.status.receivers = s.receivers.count();
+}
+
 } // namespace
 
 void publish_mesh(State& s) {
@@ -26,10 +59,11 @@ void step_mesh(State& s) {
     s.world = std::make_shared<const World>(s.mesh);
     s.origins = ray_origins(s.mesh, s.world->epsilon());
     s.buried.assign(s.mesh.coarse_vertex_count, 0);
-    const DirectParams params{0.03f, static_cast<float>(s.element_size / 8),
+    const DirectParams params{0.05f, static_cast<float>(s.element_size / 8), static_cast<float>(s.element_size),
                               s.mesh.coarse_vertex_count + fine_vertices};
     s.direct = std::make_unique<DirectTransport>(*s.world, s.mesh, make_emitters(*s.scene), params);
-    s.coarse_area = vertex_areas(s.mesh); // bisection keeps what hat functions integrate to
+    s.coarse_area = s.indirect_area = vertex_areas(s.mesh);
+    s.distance.assign(s.mesh.coarse_vertex_count, 0);
     publish_mesh(s);
     s.cursor = 0;
     s.phase = SolvePhase::sketch;
@@ -48,7 +82,7 @@ void step_light(State& s, const std::atomic<bool>& cancel) {
 
 void step_burial(State& s, const std::atomic<bool>& cancel) {
     if (!run_slice(s.cursor, s.mesh.coarse_vertex_count, 64, cancel, [&](std::uint32_t first, std::uint32_t last) {
-            find_buried(*s.world, s.mesh, s.origins, first, last, s.buried);
+            find_buried(*s.world, s.mesh, s.origins, first, last, s.buried, &s.distance);
         }))
         return;
     s.status.rays += std::uint64_t(s.mesh.coarse_vertex_count) * burial_rays;
@@ -62,7 +96,7 @@ void step_burial(State& s, const std::atomic<bool>& cancel) {
 void step_refine(State& s, const std::atomic<bool>& cancel) {
     s.status.stage = SolveStage::direct;
     const std::size_t before = s.mesh.vertices.size();
-    const bool done = s.direct->refine(cancel);
+    const bool done = refine_indirect(s, cancel) && s.direct->light_vertices(cancel) && s.direct->refine(cancel);
     if (s.mesh.vertices.size() != before) publish_mesh(s);
     if (!done) return;
     const std::vector<std::uint8_t> buried = s.all_buried();
@@ -71,6 +105,7 @@ void step_refine(State& s, const std::atomic<bool>& cancel) {
     if (!trace_probes(*s.world, s.mesh, *s.direct, buried, s.scene->solve.seed, cancel, s.probes)) return;
     s.status.rays +=
         s.probes.points.size() * (ErrorProbes::rays + ErrorProbes::shadow_rays * s.direct->emitter_count());
+    take_indirect_level(s);
     s.refined = true;
     // The first picture's rays ended at vertices of the mesh before.
     s.passes.clear();

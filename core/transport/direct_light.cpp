@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/transport/emitter_visibility.h"
 #include "core/transport/polygon_form_factor.h"
 #include "core/transport/sampling.h"
 
@@ -12,14 +13,14 @@ namespace lueur {
 
 namespace {
 
-constexpr int shadow_points = 36;  // in a penumbra
+constexpr int shadow_points = 36;  // in a penumbra of many triangles
 constexpr int probe_points = 6;    // settle the fully lit and the fully dark
 constexpr float far_diameters = 4; // from here on points replace the exact formula
 constexpr std::size_t most_exact_triangles = 64;
 constexpr std::size_t few_triangles = 4; // no dearer than the points
 // Of the visible share when half is seen: an edge cuts about sqrt(n) of n strata, each of which is then in or out by
 // chance: sqrt(sqrt(n) / 6) / n.
-constexpr double penumbra_deviation = 0.028;
+constexpr double point_penumbra_deviation = 0.028;
 
 // cos cos / r^2 from a receiver to a point of an emitter; 0 when one is behind the other.
 float kernel(glm::vec3 origin, glm::vec3 normal, const EmitterPoint& p) {
@@ -118,7 +119,7 @@ std::vector<Emitter> make_emitters(const Scene& scene) {
 }
 
 float direct_form_factor(const World& world, const Emitter& emitter, glm::vec3 origin, glm::vec3 normal,
-                         std::uint64_t& rays, float* deviation) {
+                         VisibilityDetail detail, std::uint64_t& rays, float* deviation) {
     if (deviation) *deviation = 0;
     if (nothing_arrives(emitter, origin, normal)) return 0;
     int seen = 0, facing = 0;
@@ -137,21 +138,29 @@ float direct_form_factor(const World& world, const Emitter& emitter, glm::vec3 o
     const bool exact = emitter.triangles.size() <= (near ? most_exact_triangles : few_triangles);
     if (exact && wholly_seen) return static_cast<float>(exact_form_factor(emitter, origin, normal));
 
-    double visible = 0, all = 0;
-    for (const EmitterPoint& p : emitter.points) {
-        const float g = kernel(origin, normal, p);
-        if (g <= 0) continue;
-        all += g;
-        if (wholly_seen || (++rays, sees(world, origin, p.position))) visible += g;
+    const bool subdivided = !wholly_seen && emitter.triangles.size() <= most_subdivided_triangles;
+    VisibleShare seen_share;
+    if (subdivided) seen_share = visible_share(world, emitter, origin, normal, detail, rays);
+    double f = exact ? exact_form_factor(emitter, origin, normal) : 0;
+    if (!exact || !subdivided) {
+        double visible = 0, all = 0;
+        for (const EmitterPoint& p : emitter.points) {
+            const float g = kernel(origin, normal, p);
+            if (g <= 0) continue;
+            all += g;
+            if (wholly_seen || (!subdivided && (++rays, sees(world, origin, p.position)))) visible += g;
+        }
+        if (!(all > 0)) return static_cast<float>(exact && seen > 0 ? f : 0);
+        if (!exact) f = all * emitter.area / (std::numbers::pi * static_cast<double>(emitter.points.size()));
+        if (!subdivided) {
+            const double share = visible / all;
+            seen_share = {share, point_penumbra_deviation * std::sqrt(4 * share * (1 - share))};
+        }
     }
-    const double from_points = emitter.area / (std::numbers::pi * static_cast<double>(emitter.points.size()));
-    const double f = exact ? exact_form_factor(emitter, origin, normal) : all * from_points;
-    if (!(all > 0)) return static_cast<float>(exact && seen > 0 ? f : 0);
-    const double share = visible / all;
     // The points also stand for the formula itself, to 0.5 % at far_diameters, where they are not exact.
-    const double shadow = penumbra_deviation * std::sqrt(4 * share * (1 - share)), formula = exact ? 0 : 0.005 * share;
-    if (deviation) *deviation = static_cast<float>(f * std::sqrt(shadow * shadow + formula * formula));
-    return static_cast<float>(f * share);
+    const double formula = exact ? 0 : 0.005 * seen_share.share;
+    if (deviation) *deviation = static_cast<float>(f * std::hypot(seen_share.deviation, formula));
+    return static_cast<float>(f * seen_share.share);
 }
 
 float direct_form_factor_sketch(const World& world, const Emitter& emitter, glm::vec3 origin, glm::vec3 normal,

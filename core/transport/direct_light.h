@@ -1,7 +1,8 @@
 // Direct light apart: how much of a luminaire's exitance arrives at a point.
 //
-// D = F * V: F the exact polygon form factor (polygon_form_factor.h), V the visible share by stratified shadow rays,
-// weighted with cos cos / r^2 (so D is the irradiance for unit exitance). Far from a luminaire of many triangles F too
+// D = F * V: F the exact polygon form factor (polygon_form_factor.h), V the visible share, weighted with cos cos / r^2
+// (so D is the irradiance for unit exitance), by shadow rays at the shadow's edge (emitter_visibility.h) or, to
+// luminaires of many triangles, by stratified ones. Far from a luminaire of many triangles F too
 // comes from the stratified points: at four times its diameter they agree to 0.5 %. The points are the same for all
 // receivers, so that shadows are smooth from vertex to vertex.
 #pragma once
@@ -41,10 +42,13 @@ std::vector<Emitter> make_emitters(const Scene& scene);
 // A point of the emitter, uniform by area, for u in the unit square.
 EmitterPoint emitter_point(const Emitter& emitter, glm::vec2 u);
 
+// How finely penumbrae are known: the light of one luminaire of many, or on something small, matters less.
+enum class VisibilityDetail { whole_cells, one_cut, two_cuts };
+
 // D for one receiver. `origin` is already off its surface. deviation: the standard deviation of D that the stratified
 // points leave (0 where the formula is exact and the probes agree).
 float direct_form_factor(const World& world, const Emitter& emitter, glm::vec3 origin, glm::vec3 normal,
-                         std::uint64_t& rays, float* deviation = nullptr);
+                         VisibilityDetail detail, std::uint64_t& rays, float* deviation = nullptr);
 
 // A first guess with one shadow ray, to a probe chosen by `choice`: unbiased far away, rough near the lamp. For a
 // picture at once.

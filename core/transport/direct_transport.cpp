@@ -9,6 +9,17 @@
 
 namespace lueur {
 
+namespace {
+
+// What an emitter of some flux would give without any shadow, roughly.
+float unshadowed(const Emitter& emitter, glm::vec3 origin, glm::vec3 normal) {
+    const glm::vec3 d = emitter.centre - origin;
+    const float r2 = glm::dot(d, d) + emitter.radius * emitter.radius;
+    return std::max(0.0f, glm::dot(d, normal) + emitter.radius) / (r2 * std::sqrt(r2));
+}
+
+} // namespace
+
 DirectTransport::DirectTransport(const World& world, Mesh& mesh, std::vector<Emitter> emitters,
                                  const DirectParams& params)
     : world_(world)
@@ -20,13 +31,27 @@ DirectTransport::DirectTransport(const World& world, Mesh& mesh, std::vector<Emi
     origins_ = ray_origins(mesh_, world_.epsilon());
     factors_.assign(mesh_.vertices.size() * emitters_.size(), 0);
     deviations_ = factors_;
+    area_ = vertex_areas(mesh_);
     buried_.assign(mesh_.vertices.size(), 0);
 }
 
-void DirectTransport::light(glm::vec3 origin, glm::vec3 normal, float* factors, float* deviations) const {
+// size: m, across what this light stands for.
+void DirectTransport::light(glm::vec3 origin, glm::vec3 normal, float size, float* factors, float* deviations) const {
+    constexpr float fine = 0.1f, coarse = 0.03f; // of all light, on an element of full size
     std::uint64_t rays = 0;
-    for (std::size_t l = 0; l < emitters_.size(); ++l)
-        factors[l] = direct_form_factor(world_, emitters_[l], origin, normal, rays, &deviations[l]);
+    float all = 0;
+    for (const Emitter& e : emitters_) all += unshadowed(e, origin, normal);
+    std::fill_n(factors, emitters_.size(), 0.0f);
+    std::fill_n(deviations, emitters_.size(), 0.0f);
+    if (!(all > 0)) return;
+    const float part = std::min(1.0f, params_.element_size > 0 ? size / params_.element_size : 1) / all;
+    for (std::size_t l = 0; l < emitters_.size(); ++l) {
+        const float counts = part * unshadowed(emitters_[l], origin, normal);
+        const VisibilityDetail detail = counts > fine     ? VisibilityDetail::two_cuts
+                                        : counts > coarse ? VisibilityDetail::one_cut
+                                                          : VisibilityDetail::whole_cells;
+        factors[l] = direct_form_factor(world_, emitters_[l], origin, normal, detail, rays, &deviations[l]);
+    }
     rays_.fetch_add(rays, std::memory_order_relaxed);
 }
 
@@ -61,7 +86,7 @@ bool DirectTransport::light_vertices(const std::atomic<bool>& cancel) {
         for (std::uint32_t v = first; v < last; ++v) {
             const std::size_t row = std::size_t(v) * emitters_.size();
             float* factors = factors_.data() + row;
-            light(origins_[v], mesh_.vertices[v].normal, factors, deviations_.data() + row);
+            light(origins_[v], mesh_.vertices[v].normal, std::sqrt(area_[v]), factors, deviations_.data() + row);
             buried_[v] = 0;
             if (equal_flux_light(factors) == 0) find_buried(world_, mesh_, origins_, v, v + 1, buried_);
         }
@@ -69,7 +94,7 @@ bool DirectTransport::light_vertices(const std::atomic<bool>& cancel) {
     if (done && floor_ == 0 && count > 0) {
         double sum = 0;
         for (std::uint32_t v = 0; v < count; ++v) sum += equal_flux_light(at_vertex(v));
-        floor_ = static_cast<float>(0.1 * sum / count); // darker than this, a relative error is not seen
+        floor_ = static_cast<float>(0.25 * sum / count); // darker than this, a relative error is not seen
         spread_deviations();
     }
     return done;
@@ -146,23 +171,23 @@ void DirectTransport::split_bent() {
     buried_.resize(after, 0);
     list_leaves(mesh_);
     origins_ = ray_origins(mesh_, world_.epsilon());
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(before, after, 16),
-                      [&](const tbb::blocked_range<std::uint32_t>& range) {
-                          for (std::uint32_t v = range.begin(); v < range.end(); ++v) {
-                              const auto& parents = mesh_.vertices[v].parents;
-                              const auto slot = edge_slot_.find(Bisection::edge_key(parents[0], parents[1]));
-                              const std::size_t row = std::size_t(v) * emitters_.size();
-                              float *factors = factors_.data() + row, *deviations = deviations_.data() + row;
-                              if (slot != edge_slot_.end()) {
-                                  const std::size_t edge = std::size_t(slot->second) * emitters_.size();
-                                  std::copy_n(edge_factors_.data() + edge, emitters_.size(), factors);
-                                  std::copy_n(edge_deviations_.data() + edge, emitters_.size(), deviations);
-                              } else
-                                  light(origins_[v], mesh_.vertices[v].normal, factors, deviations);
-                              if (equal_flux_light(factors) == 0)
-                                  find_buried(world_, mesh_, origins_, v, v + 1, buried_);
-                          }
-                      });
+    area_ = vertex_areas(mesh_);
+    tbb::parallel_for(
+        tbb::blocked_range<std::uint32_t>(before, after, 16), [&](const tbb::blocked_range<std::uint32_t>& range) {
+            for (std::uint32_t v = range.begin(); v < range.end(); ++v) {
+                const auto& parents = mesh_.vertices[v].parents;
+                const auto slot = edge_slot_.find(Bisection::edge_key(parents[0], parents[1]));
+                const std::size_t row = std::size_t(v) * emitters_.size();
+                float *factors = factors_.data() + row, *deviations = deviations_.data() + row;
+                if (slot != edge_slot_.end()) {
+                    const std::size_t edge = std::size_t(slot->second) * emitters_.size();
+                    std::copy_n(edge_factors_.data() + edge, emitters_.size(), factors);
+                    std::copy_n(edge_deviations_.data() + edge, emitters_.size(), deviations);
+                } else
+                    light(origins_[v], mesh_.vertices[v].normal, std::sqrt(area_[v]), factors, deviations);
+                if (equal_flux_light(factors) == 0) find_buried(world_, mesh_, origins_, v, v + 1, buried_);
+            }
+        });
     vertex_cursor_ = after;
     refined_ = after == before || after >= params_.most_vertices;
     if (refined_) {
@@ -212,6 +237,7 @@ void DirectTransport::follow_mesh() {
         }
     }
     origins_ = ray_origins(mesh_, world_.epsilon());
+    area_ = vertex_areas(mesh_);
     if (!refined_) bisection_.emplace(mesh_); // refine() goes on from here
     level_begun_ = false;
 }
@@ -223,20 +249,20 @@ bool DirectTransport::refine(const std::atomic<bool>& cancel) {
         level_begun_ = true;
     }
     const float epsilon = world_.epsilon();
-    const bool done = run_slice(edge_cursor_, static_cast<std::uint32_t>(edges_.size()), 32, cancel,
-                                [&](std::uint32_t first, std::uint32_t last) {
-                                    for (std::uint32_t e = first; e < last; ++e) {
-                                        const EdgeMiddle& edge = edges_[e];
-                                        const MeshVertex &a = mesh_.vertices[edge.a], &b = mesh_.vertices[edge.b];
-                                        const glm::vec3 middle = 0.5f * (a.position + b.position);
-                                        const glm::vec3 sum = a.normal + b.normal;
-                                        const glm::vec3 normal =
-                                            glm::dot(sum, sum) > 1e-12f ? glm::normalize(sum) : a.normal;
-                                        light(ray_origin(middle, normal, edge.inward / float(edge.elements), epsilon),
-                                              normal, edge_factors_.data() + std::size_t(e) * emitters_.size(),
-                                              edge_deviations_.data() + std::size_t(e) * emitters_.size());
-                                    }
-                                });
+    const bool done = run_slice(
+        edge_cursor_, static_cast<std::uint32_t>(edges_.size()), 32, cancel,
+        [&](std::uint32_t first, std::uint32_t last) {
+            for (std::uint32_t e = first; e < last; ++e) {
+                const EdgeMiddle& edge = edges_[e];
+                const MeshVertex &a = mesh_.vertices[edge.a], &b = mesh_.vertices[edge.b];
+                const glm::vec3 middle = 0.5f * (a.position + b.position);
+                const glm::vec3 sum = a.normal + b.normal;
+                const glm::vec3 normal = glm::dot(sum, sum) > 1e-12f ? glm::normalize(sum) : a.normal;
+                light(ray_origin(middle, normal, edge.inward / float(edge.elements), epsilon), normal,
+                      glm::length(b.position - a.position), edge_factors_.data() + std::size_t(e) * emitters_.size(),
+                      edge_deviations_.data() + std::size_t(e) * emitters_.size());
+            }
+        });
     if (!done) return false;
     split_bent();
     level_begun_ = false;

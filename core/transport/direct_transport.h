@@ -21,6 +21,7 @@ namespace lueur {
 struct DirectParams {
     float tolerance = 0.03f; // relative misfit of an edge's middle that splits it
     float smallest_edge = 0; // m: shorter edges are not split
+    float element_size = 0;  // m: what stands for less than such an element is lit less finely
     std::uint32_t most_vertices = 60000;
 };
 
@@ -41,6 +42,8 @@ public:
     std::size_t lit_vertices() const { return buried_.size(); } // that it knows of
     std::size_t emitter_count() const { return emitters_.size(); }
     const std::vector<Emitter>& emitters() const { return emitters_; }
+    // Of factors D: irradiance, were all luminaires of the same flux.
+    float equal_flux_light(const float* factors) const;
     // D of each emitter at a vertex: irradiance for unit exitance.
     const float* at_vertex(std::uint32_t v) const { return factors_.data() + std::size_t(v) * emitters_.size(); }
     // Standard deviation of D at a vertex, one an emitter: of the stratified points in a penumbra; next to one, of the
@@ -61,9 +64,8 @@ private:
         glm::vec3 inward{0};
         int elements = 0;
     };
-    void light(glm::vec3 origin, glm::vec3 normal, float* factors, float* deviations) const;
+    void light(glm::vec3 origin, glm::vec3 normal, float size, float* factors, float* deviations) const;
     void spread_deviations();
-    float equal_flux_light(const float* factors) const;
     void collect_edges();
     void split_bent();
 
@@ -76,6 +78,7 @@ private:
     std::vector<float> factors_, deviations_; // vertices * emitters
     std::vector<std::uint8_t> buried_;
     std::vector<glm::vec3> origins_;
+    std::vector<float> area_; // m^2, of each vertex
     std::uint32_t sketch_cursor_ = 0, vertex_cursor_ = 0;
 
     std::vector<EdgeMiddle> edges_; // of this level, and their D

@@ -1,5 +1,7 @@
 #include "core/transport/gather_rows.h"
 
+#include <algorithm>
+
 #include "core/transport/sampling.h"
 
 namespace lueur {
@@ -27,13 +29,18 @@ std::uint32_t pick_vertex(const glm::uvec3& v, glm::vec3 w, const std::vector<st
 } // namespace
 
 void find_buried(const World& world, const Mesh& mesh, const std::vector<glm::vec3>& origins, std::uint32_t first,
-                 std::uint32_t last, std::vector<std::uint8_t>& buried) {
+                 std::uint32_t last, std::vector<std::uint8_t>& buried, std::vector<float>* distance) {
     for (std::uint32_t i = first; i < last; ++i) {
         const Frame frame(mesh.vertices[i].normal);
         int back_faces = 0;
-        for (std::uint32_t k = 0; k < burial_rays; ++k)
-            back_faces += world.closest({origins[i], frame.world(cosine_direction(r2_point(k, {0, 0})))}).back_face;
+        float nearness = 0;
+        for (std::uint32_t k = 0; k < burial_rays; ++k) {
+            const Hit hit = world.closest({origins[i], frame.world(cosine_direction(r2_point(k, {0, 0})))});
+            back_faces += hit.back_face;
+            if (hit.any()) nearness += 1 / std::max(hit.t, 1e-20f);
+        }
         buried[i] = back_faces > most_back_faces;
+        if (distance) (*distance)[i] = nearness > 0 ? burial_rays / nearness : 1e30f;
     }
 }
 
@@ -59,8 +66,8 @@ void trace_gather_rays(const World& world, const Mesh& mesh, const std::vector<g
             if (hit.element == no_index) continue;
             const std::size_t ray = std::size_t(i) * rays_per_pass + k;
             const std::uint32_t bits = hash(key, static_cast<std::uint32_t>(ray));
-            const glm::vec3 weights(1 - hit.b1 - hit.b2, hit.b1, hit.b2);
-            const std::uint32_t end = pick_vertex(mesh.nodes[hit.element].vertices, weights, buried, unit_float(bits));
+            const Located indirect = locate_indirect(mesh, hit.element, hit.b1, hit.b2);
+            const std::uint32_t end = pick_vertex(indirect.vertices, indirect.weights, buried, unit_float(bits));
             if (end != no_index) out.ends[ray] = receivers.of_vertex[end];
             const Located fine = locate(mesh, hit.element, hit.b1, hit.b2);
             const std::uint32_t fine_end = pick_vertex(fine.vertices, fine.weights, buried, unit_float(hash(bits)));

@@ -22,15 +22,16 @@ inline constexpr std::uint32_t burial_rays = 16; // of find_buried, a vertex
 inline constexpr int independent_sets = 2;       // pass p belongs to set p % 2
 
 // Coarse vertices whose rays mostly meet back faces lie inside a solid (a floor vertex under a block): they take no
-// part. Receivers in [first, last) of `origins`; the result is written to buried[first..last).
+// part. Receivers in [first, last) of `origins`; the result is written to buried[first..last), and to `distance` the
+// harmonic mean of the distances to what is around, m.
 void find_buried(const World& world, const Mesh& mesh, const std::vector<glm::vec3>& origins, std::uint32_t first,
-                 std::uint32_t last, std::vector<std::uint8_t>& buried);
+                 std::uint32_t last, std::vector<std::uint8_t>& buried, std::vector<float>* distance = nullptr);
 
 struct GatherPass {
     // receivers * rays_per_pass of each. The receiver each ray ended at, drawn among those of the vertices of the
-    // coarse element it met (the number of receivers where it left the scene or met a black back face), and the fine
-    // vertex, drawn among those of the fine element (the number of vertices then): indirect light is read from
-    // receivers, direct light from fine vertices.
+    // element it met on the level of indirect light (the number of receivers where it left the scene or met a black
+    // back face), and the fine vertex, drawn among those of the fine element (the number of vertices then): indirect
+    // light is read from receivers, direct light from fine vertices.
     std::vector<std::uint32_t> ends;
     std::vector<std::uint32_t> fine_ends;
 };

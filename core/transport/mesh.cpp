@@ -221,13 +221,18 @@ Mesh make_mesh(const Scene& scene, const MeshParams& params) {
                                                                  mesh.vertices[node.vertices.z].position - a)));
     }
     list_leaves(mesh);
+    mesh.indirect_vertex_count = mesh.coarse_vertex_count;
+    mesh.indirect_node_count = mesh.coarse_element_count;
+    mesh.indirect_elements = mesh.elements;
     return mesh;
 }
 
-Located locate(const Mesh& mesh, std::uint32_t coarse_element, float b1, float b2) {
+namespace {
+
+Located descend(const Mesh& mesh, std::uint32_t coarse_element, float b1, float b2, std::uint32_t nodes) {
     std::uint32_t n = coarse_element;
     glm::vec3 w(1 - b1 - b2, b1, b2);
-    while (mesh.nodes[n].children != no_index) {
+    while (mesh.nodes[n].children < nodes) { // no_index is larger than any
         const int k = mesh.nodes[n].split_edge;
         const float a = w[k], b = w[(k + 1) % 3], c = w[(k + 2) % 3];
         n = mesh.nodes[n].children;
@@ -239,6 +244,23 @@ Located locate(const Mesh& mesh, std::uint32_t coarse_element, float b1, float b
         }
     }
     return {mesh.nodes[n].vertices, w};
+}
+
+} // namespace
+
+Located locate(const Mesh& mesh, std::uint32_t coarse_element, float b1, float b2) {
+    return descend(mesh, coarse_element, b1, b2, no_index);
+}
+
+Located locate_indirect(const Mesh& mesh, std::uint32_t coarse_element, float b1, float b2) {
+    return descend(mesh, coarse_element, b1, b2, mesh.indirect_node_count);
+}
+
+std::vector<glm::uvec3> elements_of_level(const Mesh& mesh, std::uint32_t vertices) {
+    if (vertices == mesh.indirect_vertex_count) return mesh.indirect_elements;
+    std::vector<glm::uvec3> elements;
+    for (std::uint32_t e = 0; e < mesh.coarse_element_count; ++e) elements.push_back(mesh.nodes[e].vertices);
+    return elements;
 }
 
 glm::vec3 ray_origin(glm::vec3 position, glm::vec3 normal, glm::vec3 inward, float epsilon) {
@@ -266,8 +288,12 @@ std::vector<glm::vec3> ray_origins(const Mesh& mesh, float epsilon) {
 }
 
 std::vector<float> vertex_areas(const Mesh& mesh) {
-    std::vector<float> areas(mesh.vertices.size(), 0);
-    for (const glm::uvec3& e : mesh.elements) {
+    return vertex_areas(mesh, mesh.elements, static_cast<std::uint32_t>(mesh.vertices.size()));
+}
+
+std::vector<float> vertex_areas(const Mesh& mesh, std::span<const glm::uvec3> elements, std::uint32_t vertices) {
+    std::vector<float> areas(vertices, 0);
+    for (const glm::uvec3& e : elements) {
         const glm::vec3 a = mesh.vertices[e.x].position;
         const float third =
             glm::length(glm::cross(mesh.vertices[e.y].position - a, mesh.vertices[e.z].position - a)) / 6;

@@ -42,6 +42,12 @@ struct Mesh {
     std::vector<MeshNode> nodes;
     std::uint32_t coarse_vertex_count = 0;
     std::uint32_t coarse_element_count = 0;
+
+    // Where indirect light is gathered: the coarse level, and what cuts it at contacts (indirect_refinement.h). Its
+    // vertices and nodes are the first ones.
+    std::uint32_t indirect_vertex_count = 0, indirect_node_count = 0;
+    std::vector<glm::uvec3> indirect_elements;
+
     std::vector<std::uint32_t> coarse_surface; // of each coarse element: SurfaceIndex
     std::vector<std::uint8_t> coarse_back;     // 1: the back side of a two-sided surface
     std::vector<std::uint32_t>
@@ -74,6 +80,11 @@ struct Located {
     glm::vec3 weights;
 };
 Located locate(const Mesh& mesh, std::uint32_t coarse_element, float b1, float b2);
+// The same on the level of indirect light.
+Located locate_indirect(const Mesh& mesh, std::uint32_t coarse_element, float b1, float b2);
+
+// The elements of the level that has so many vertices: the coarse one or that of indirect light.
+std::vector<glm::uvec3> elements_of_level(const Mesh& mesh, std::uint32_t vertices);
 
 // Where rays of a point of a surface start: moved a little towards `inward`, the middle of the elements around it, and
 // lifted off the surface by epsilon and by what a curved surface may bend away.
@@ -85,5 +96,6 @@ std::vector<glm::vec3> ray_origins(const Mesh& mesh, float epsilon);
 
 // Area that belongs to each vertex of the fine mesh: a third of its elements, m^2.
 std::vector<float> vertex_areas(const Mesh& mesh);
+std::vector<float> vertex_areas(const Mesh& mesh, std::span<const glm::uvec3> elements, std::uint32_t vertices);
 
 } // namespace lueur

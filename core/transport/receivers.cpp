@@ -41,4 +41,12 @@ Receivers make_receivers(const Scene& scene, const Mesh& mesh, const std::vector
     return receivers;
 }
 
+void add_receivers(std::uint32_t vertices, const std::vector<std::uint8_t>& buried, Receivers& receivers) {
+    for (auto v = static_cast<std::uint32_t>(receivers.of_vertex.size()); v < vertices; ++v) {
+        receivers.of_vertex.push_back(receivers.count());
+        receivers.vertex.push_back(v);
+        receivers.buried.push_back(buried[v]);
+    }
+}
+
 } // namespace lueur

@@ -12,7 +12,7 @@
 namespace lueur {
 
 struct Receivers {
-    std::vector<std::uint32_t> of_vertex; // of each coarse vertex
+    std::vector<std::uint32_t> of_vertex; // of each vertex of the level of indirect light
     std::vector<std::uint32_t> vertex;    // of each receiver: the vertex whose rays stand for all
     std::vector<std::uint8_t> buried;     // of each receiver
     std::uint32_t count() const { return static_cast<std::uint32_t>(vertex.size()); }
@@ -21,5 +21,8 @@ struct Receivers {
 // cell: edge of the cubes, m, in which vertices of one object and side with normals within about 30 degrees are put
 // together; buried and free vertices never are.
 Receivers make_receivers(const Scene& scene, const Mesh& mesh, const std::vector<std::uint8_t>& buried, float cell);
+
+// For more vertices behind those that are there (of a mesh that was cut at contacts): each a receiver of its own.
+void add_receivers(std::uint32_t vertices, const std::vector<std::uint8_t>& buried, Receivers& receivers);
 
 } // namespace lueur

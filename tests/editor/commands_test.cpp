@@ -136,6 +136,8 @@ TEST_F(Furnace, MeasuresWithEverySolverAndAtEveryPlace) {
     for (const auto solver : {SolverKind::gathering, SolverKind::shooting, SolverKind::overshooting, SolverKind::jacobi,
                               SolverKind::gauss_seidel})
         for (const auto at : {MeasureAt::gather, MeasureAt::field}) {
+            const bool reads_as_jacobi = solver == SolverKind::overshooting || solver == SolverKind::gauss_seidel;
+            if (at == MeasureAt::field && reads_as_jacobi) continue;
             auto command = measure(on_walls);
             command.batch.solve.solver = solver;
             command.at = at;

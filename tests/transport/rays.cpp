@@ -161,7 +161,8 @@ TEST(DirectLight, WhollySeenIsTheExactFormFactor) {
     EXPECT_NEAR(emitters[0].area, 6, 1e-5);
     std::uint64_t rays = 0;
     for (const glm::vec3 p : {glm::vec3(0.5f, 1e-5f, 0.5f), {0.02f, 1e-5f, 0.03f}, {0.9f, 1e-5f, 0.1f}})
-        EXPECT_NEAR(direct_form_factor(world, emitters[0], p, {0, 1, 0}, rays), 1, 1e-5); // all it sees shines
+        EXPECT_NEAR(direct_form_factor(world, emitters[0], p, {0, 1, 0}, VisibilityDetail::two_cuts, rays), 1,
+                    1e-5); // all it sees shines
     EXPECT_GT(rays, 0u);
 }
 
@@ -179,10 +180,12 @@ TEST(DirectLight, HalfHiddenLampGivesHalf) {
     std::uint64_t rays = 0;
     const glm::dvec3 half[4] = {{0, 2, -0.5}, {0.5, 2, -0.5}, {0.5, 2, 0.5}, {0, 2, 0.5}};
     const double exact = polygon_form_factor({0, 0, 0}, {0, 1, 0}, half);
-    EXPECT_NEAR(direct_form_factor(world, emitter, glm::vec3(0), {0, 1, 0}, rays) / exact, 1, 0.04);
+    EXPECT_NEAR(direct_form_factor(world, emitter, glm::vec3(0), {0, 1, 0}, VisibilityDetail::two_cuts, rays) / exact,
+                1, 0.04);
     EXPECT_NEAR(direct_form_factor_sampled(world, emitter, glm::vec3(0), {0, 1, 0}, 4096, {0.1f, 0.7f}) / exact, 1,
                 0.005);
-    EXPECT_EQ(direct_form_factor(world, emitter, glm::vec3(-1.2f, 0.9f, 0), {0, 1, 0}, rays), 0);
+    EXPECT_EQ(
+        direct_form_factor(world, emitter, glm::vec3(-1.2f, 0.9f, 0), {0, 1, 0}, VisibilityDetail::two_cuts, rays), 0);
 }
 
 // Far from a lamp of many triangles the stratified points stand for the exact formula.
@@ -205,7 +208,7 @@ TEST(DirectLight, FarAndNearAgree) {
     for (const glm::vec3 p : {glm::vec3(0, -3, 0), {0, -6, 0}, {1, -5.8f, 2}, {4, -5, 0}, {0, -50, 0}}) {
         const glm::vec3 normal = glm::normalize(glm::vec3(0.1f, 1, 0));
         const double exact = polygon_form_factor(p, normal, polygon);
-        EXPECT_NEAR(direct_form_factor(world, emitter, p, normal, rays) / exact, 1, 0.005);
+        EXPECT_NEAR(direct_form_factor(world, emitter, p, normal, VisibilityDetail::two_cuts, rays) / exact, 1, 0.005);
     }
 }
 

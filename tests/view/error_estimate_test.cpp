@@ -29,8 +29,8 @@ void expect_calibrated(const Solution& solution, const char* what) {
     printf("%s: true %.2f %%, estimated %.2f %%, %.1f %% inside\n", what, 100 * verdict.truth, 100 * verdict.estimate,
            100 * verdict.covered);
     EXPECT_GT(verdict.counted, 150) << what;
-    EXPECT_GT(verdict.ratio(), 0.5) << what;
-    EXPECT_LT(verdict.ratio(), 2) << what;
+    EXPECT_TRUE(verdict.right()) << what << ": ratio " << verdict.ratio()
+                                 << ", more than the paths' own noise explains";
     // 250 vertices: a share of 0.95 is known to 0.014.
     EXPECT_GT(verdict.covered, 0.95 - 2 * 0.014) << what;
 }
@@ -56,9 +56,9 @@ TEST(ErrorEstimate, IsRightOnTheCornellBox) {
 TEST(ErrorEstimate, IsRightOfOtherSolvers) {
     Scene scene = test::small_room();
     scene.solve.target_error = 0.1;
-    scene.solve.element_size = 0.8;
     for (const SolverKind kind : {SolverKind::shooting, SolverKind::gauss_seidel, SolverKind::hierarchical}) {
         scene.solve.solver = kind;
+        scene.solve.element_size = kind == SolverKind::gauss_seidel ? 0.8 : 0.6; // m; a matrix grows with its square
         expect_calibrated(test::solved(scene), to_string(kind).c_str());
     }
 }

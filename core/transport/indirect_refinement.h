@@ -1,0 +1,82 @@
+// Where indirect light needs more receivers than the coarse mesh has: at contacts and in narrow places, where what
+// little of the room is seen changes within an element.
+//
+// Indirect light changes over distances of the order of those to the surfaces around (Ward, Rubinstein & Clear 1988):
+// only edges longer than a part of them are looked at. There the light of one ray set is compared at the middle and
+// at both ends; the same directions at all three leave what changes, not the noise. What the rays meet is grey and
+// lit by all luminaires as if they gave the same flux, so that no edit of a lamp or a paint changes the mesh.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "core/transport/bisection.h"
+#include "core/transport/direct_transport.h"
+#include "core/transport/mesh.h"
+#include "core/transport/world.h"
+
+namespace lueur {
+
+struct IndirectParams {
+    float tolerance = 0.04f;    // relative misfit of an edge's middle that splits it
+    float smallest_element = 0; // m, longest edge: smaller coarse elements are left alone,
+    float smallest_edge = 0;    // and elements of that size are not cut any more
+    std::uint32_t most_vertices = 60000;
+};
+
+class IndirectRefinement {
+public:
+    // The coarse vertices of `mesh` are lit by `direct`; all outlive it. Nothing else may cut the mesh meanwhile.
+    // buried, distance: of the coarse vertices (find_buried).
+    IndirectRefinement(const World& world, Mesh& mesh, const DirectTransport& direct, std::vector<std::uint8_t> buried,
+                       std::vector<float> distance, const IndirectParams& params);
+
+    // Brings it forward by one time slice; true at the end. The mesh may have grown.
+    bool step(const std::atomic<bool>& cancel);
+
+    // At the end, of the mesh's vertices then:
+    const std::vector<std::uint8_t>& buried() const { return buried_; }
+    const std::vector<glm::vec3>& origins() const { return origins_; }
+    std::uint64_t rays() const { return rays_.load(); }
+
+private:
+    struct Middle {
+        std::uint32_t a, b;
+        glm::vec3 inward{0};
+        int elements = 0;
+    };
+    struct Seen {
+        float light = -1, distance = 0; // equal-flux irradiance, < 0: not gathered yet; m, harmonic mean
+        bool buried = false;
+    };
+    Seen gather(glm::vec3 origin, glm::vec3 normal) const;
+    bool is_close(std::uint32_t a, std::uint32_t b) const;
+    void collect_edges();
+    void split_bent();
+
+    const World& world_;
+    Mesh& mesh_;
+    const IndirectParams params_;
+    Bisection bisection_;
+    std::vector<float> radiosity_; // grey, at coarse vertices
+    std::vector<float> direct_;    // equal-flux, at all vertices
+    float floor_ = 0;              // darker than this a relative error is not seen
+    std::vector<std::uint8_t> buried_;
+    std::vector<float> distance_;
+    std::vector<float> light_; // < 0: not gathered
+    std::vector<glm::vec3> origins_;
+
+    std::vector<std::uint32_t> open_;    // leaves of this level
+    std::vector<Middle> edges_;          // whose middles are looked at,
+    std::vector<std::uint32_t> corners_; // and the vertices that this asks for
+    std::vector<Seen> seen_;             // of the edges, then of the corners
+    std::unordered_map<std::uint64_t, std::uint32_t> edge_slot_;
+    std::unordered_map<std::uint64_t, std::uint8_t> straight_; // looked at before
+    std::uint32_t cursor_ = 0, next_node_ = 0;
+    bool level_begun_ = false, done_ = false;
+    mutable std::atomic<std::uint64_t> rays_{0};
+};
+
+} // namespace lueur
