@@ -1,7 +1,7 @@
 #include "core/solve/error_probes.h"
 
 #include <algorithm>
-#include <numeric>
+#include <cmath>
 
 #include "core/transport/direct_light.h"
 #include "core/transport/sampling.h"
@@ -79,6 +79,7 @@ void place_probes(const World& world, const Mesh& mesh, const DirectTransport& d
         ErrorProbes::Point p{};
         p.area = static_cast<float>(1 / (density[e] * count));
         p.between = k % 2 == 1;
+        p.reach = 2 * std::sqrt(2 * mesh.coarse_area[mesh.element_coarse[e]]);
         if (p.between) {
             const glm::vec2 b = triangle_point({unit_float(more), unit_float(hash(more))});
             p.vertices = v;
@@ -118,7 +119,8 @@ bool trace_probes(const World& world, const Mesh& mesh, const DirectTransport& d
         probes.cursor, static_cast<std::uint32_t>(probes.points.size()), 4, cancel,
         [&](std::uint32_t first, std::uint32_t last) {
             for (std::uint32_t i = first; i < last; ++i) {
-                const ErrorProbes::Point& p = probes.points[i];
+                ErrorProbes::Point& p = probes.points[i];
+                std::uint32_t near = 0;
                 const Frame frame(p.normal);
                 for (std::uint32_t set = 0; set < ErrorProbes::sets; ++set) {
                     const std::uint32_t key = hash(hash(seed, 0x9e0b0000u + set), i);
@@ -131,11 +133,13 @@ bool trace_probes(const World& world, const Mesh& mesh, const DirectTransport& d
                     for (std::uint32_t k = 0; k < per_set; ++k) {
                         const Hit hit = world.closest({p.origin, frame.world(cosine_direction(r2_point(k, offset)))});
                         if (hit.element == no_index) continue;
+                        near += hit.t < p.reach;
                         const std::uint32_t end =
                             pick(locate(mesh, hit.element, hit.b1, hit.b2), buried, unit_float(hash(key, k)));
                         if (end != no_index) probes.ends[std::size_t(i) * ErrorProbes::rays + set * per_set + k] = end;
                     }
                 }
+                p.near = static_cast<float>(near) / ErrorProbes::rays;
             }
         });
 }

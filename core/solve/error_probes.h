@@ -17,6 +17,8 @@
 
 namespace lueur {
 
+inline constexpr std::uint32_t probe_count = 400; // that tell the error of a solution
+
 struct ErrorProbes {
     struct Point {
         glm::vec3 origin, normal;
@@ -24,9 +26,11 @@ struct ErrorProbes {
         glm::vec3 weights;
         float area; // m^2 that it stands for: probes are denser where direct light is uncertain
         bool between;
+        float reach; // m, two elements
+        float near;  // share of its rays that end within reach, where the field errs as it does here
     };
-    static constexpr int rays = 256, shadow_rays = 48; // a point; shadow rays a luminaire
-    static constexpr int sets = 2;                     // independent halves of both
+    static constexpr int rays = 512, shadow_rays = 48; // a point; shadow rays a luminaire
+    static constexpr int sets = 4;                     // independent parts of both, which know their own spread
 
     std::vector<Point> points;
     std::vector<float> direct;       // points * sets * emitters: D

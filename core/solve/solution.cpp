@@ -74,11 +74,24 @@ void add_words(std::string& message, const std::string& words) {
     if (!words.empty()) message += (message.empty() ? "" : "; ") + words;
 }
 
+// The field's own estimate is the one that is told; why it is above the target, if it is. The number of rays follows
+// from the geometry (ray_budget.h), so that light that bends between the vertices may be what is left.
+void warn_of_error(SolveStatus& status, const SolveSettings& solve) {
+    if (!status.message.empty() || !(status.estimated_error > 1.1 * solve.target_error)) return;
+    const bool all_rays = status.rays_per_receiver + rays_per_pass * independent_sets > std::uint32_t(solve.max_rays);
+    status.message =
+        fmt::format("estimated error {:.1f} %, above the target of {:.1f} %: {}", 100 * status.estimated_error,
+                    100 * solve.target_error,
+                    all_rays ? fmt::format("{} rays a receiver are the limit set", status.rays_per_receiver)
+                             : "smaller elements would lower it");
+}
+
 } // namespace
 
 void start_solver(State& s, bool same_sources) {
     if (s.solver() != SolverKind::hierarchical) s.status.links = 0;
     if (s.solver() != SolverKind::gathering) s.indirect_deviation.clear(); // it was another solver's
+    if (!s.refined) s.probes = {};                                         // they read the mesh as it was then
     switch (s.solver()) {
     case SolverKind::automatic:
     case SolverKind::gathering:
@@ -97,11 +110,6 @@ void start_solver(State& s, bool same_sources) {
 }
 
 void settle(State& s) {
-    const double target = s.scene->solve.target_error;
-    if (s.status.message.empty() && s.status.estimated_error > 1.1 * target && s.solver() == SolverKind::gathering)
-        s.status.message =
-            fmt::format("estimated error {:.1f} %, above the target of {:.1f} %: {} rays a receiver are the limit set",
-                        100 * s.status.estimated_error, 100 * target, s.status.rays_per_receiver);
     s.phase = SolvePhase::settled;
     s.status.stage = SolveStage::settled;
     s.status.settled = true;
@@ -222,6 +230,7 @@ bool Solution::step(const std::atomic<bool>& cancel, bool one_shot) {
     }
     if (s.phase == SolvePhase::settled) {
         take_stock();
+        if (s.solver() == SolverKind::gathering) warn_of_error(s.status, s.scene->solve);
         if (s.stock) add_words(s.status.message, settled_words(s, *s.stock));
     }
     return s.phase != SolvePhase::settled && s.phase != SolvePhase::failed;

@@ -125,6 +125,14 @@ std::string hopeless_shots(const State& s, double enough) {
                        needed, most);
 }
 
+// Direct light of a finer mesh is not used here, so that refinement, which else asks for them, has not been.
+bool trace_matrix_probes(State& s, const std::atomic<bool>& cancel) {
+    const std::vector<std::uint8_t> buried = s.all_buried();
+    const std::uint32_t seed = s.scene->solve.seed;
+    if (s.probes.points.empty()) place_probes(*s.world, s.mesh, *s.direct, buried, probe_count, seed, s.probes);
+    return trace_probes(*s.world, s.mesh, *s.direct, buried, seed, cancel, s.probes);
+}
+
 void take_shots(State& s, const std::atomic<bool>& cancel, bool one_shot, double enough) {
     MatrixSystem& system = s.patch_solve.system;
     const auto start = std::chrono::steady_clock::now();
@@ -220,6 +228,7 @@ void build_matrix(State& s, const std::atomic<bool>& cancel) {
 void step_matrix(State& s, const std::atomic<bool>& cancel, bool one_shot) {
     PatchSolve& p = s.patch_solve;
     s.status.stage = SolveStage::solving;
+    if (!s.probes.complete() && !trace_matrix_probes(s, cancel)) return;
     const bool shots = s.solver() == SolverKind::overshooting;
     double enough = (shots ? unshot_of_shots : unshot_of_sweeps) * s.scene->solve.target_error;
     if (shots) // of the emitted flux: each unit unshot is reflected on, 1 / (1 - rho_ave) times if nothing is lost

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/solve/error_mesh.h"
 #include "core/solve/error_probes.h"
 #include "core/solve/gather_system.h"
 #include "core/solve/hierarchy.h"
@@ -71,6 +72,7 @@ struct Solution::State {
     double element_size = 0;        // m, longest coarse edge in use
     std::vector<float> coarse_area; // m^2 of each coarse vertex
     ErrorProbes probes;             // where the solution is asked whether it is right
+    mutable ErrorMesh error_mesh;   // made when a field is first asked for its error, and kept as long as the mesh
 
     // What a solver knows of the error of its own indirect light, lx where it is gathered, one standard deviation;
     // empty: nothing. Error estimates start from it (error_estimate.h).

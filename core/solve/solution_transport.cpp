@@ -8,7 +8,6 @@ namespace lueur {
 namespace {
 
 constexpr std::uint32_t fine_vertices = 20000; // that direct light may add: the window has to draw them
-constexpr std::uint32_t probe_count = 400;     // that tell its error
 constexpr double near_share = 0.01;            // of the coarse element size: what is nearer, elements do not resolve
 constexpr double receiver_cell = 0.3;          // of the coarse element size
 

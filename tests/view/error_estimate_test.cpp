@@ -1,9 +1,17 @@
 // The estimated error against the true one: the yardstick is traced paths, whose own variance is subtracted. All asset
 // scenes and more budgets: tests/bench/error_calibration.cpp.
+//
+// What does not hold and is not asked here: in the office 84 % of the true values at vertices lie inside (64 rays; true
+// 20 %, estimated 13 %). Its probes find half of the error there: on window frames before the sky and on furniture of a
+// few elements a vertex and the surfaces its probe's rays read are wrong together, and those few errors are of the size
+// of the light itself.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/scene/scene_file.h"
+#include "core/scene/solver_words.h"
 #include "core/scene/spectral_content.h"
+#include "core/solve/error_estimate.h"
 #include "core/solve/wavelength_error.h"
 #include "tests/support/error_truth.h"
 #include "tests/support/scenes.h"
@@ -17,12 +25,12 @@ void expect_calibrated(const Solution& solution, const char* what) {
     const auto field = solution.field();
     ASSERT_EQ(field->error.size(), field->irradiance_xyz.size());
     const auto points = test::true_vertices(solution, false, 250, 2048, 21);
-    const test::ErrorVerdict verdict = test::judge_vertices(*field, points);
+    const test::ErrorVerdict verdict = test::judge_vertices(solution, *field, points);
     printf("%s: true %.2f %%, estimated %.2f %%, %.1f %% inside\n", what, 100 * verdict.truth, 100 * verdict.estimate,
            100 * verdict.covered);
     EXPECT_GT(verdict.counted, 150) << what;
-    EXPECT_GT(verdict.ratio(), 0.5) << what;
-    EXPECT_LT(verdict.ratio(), 2) << what;
+    EXPECT_TRUE(verdict.right()) << what << ": ratio " << verdict.ratio()
+                                 << ", more than the paths' own noise explains";
     // 250 vertices: a share of 0.95 is known to 0.014.
     EXPECT_GT(verdict.covered, 0.95 - 2 * 0.014) << what;
 }
@@ -35,13 +43,60 @@ Scene with_rays(Scene scene, int rays) {
 
 } // namespace
 
-// Not held here, since it does not hold: at 64 rays 90 % lie inside (a vertex at a block's foot reads the same dark
-// floor as the probes that judge it), and shooting says less than half of its error (its form factors' own error is not
-// in it).
 TEST(ErrorEstimate, IsRightOnTheCornellBox) {
     const auto loaded = load_scene(test::source_folder() / "assets/cornell.toml");
     ASSERT_TRUE(loaded) << loaded.error().front();
-    expect_calibrated(test::solved(with_rays(loaded->scene, 512)), "Cornell box, 512 rays");
+    for (const int rays : {64, 512})
+        expect_calibrated(test::solved(with_rays(loaded->scene, rays)),
+                          rays == 64 ? "Cornell box, 64 rays" : "Cornell box, 512 rays");
+}
+
+// What these solvers show is wrong by their form factors and by patches of one radiosity each, of which they say
+// nothing: the probes alone tell.
+TEST(ErrorEstimate, IsRightOfOtherSolvers) {
+    Scene scene = test::small_room();
+    scene.solve.target_error = 0.1;
+    for (const SolverKind kind : {SolverKind::shooting, SolverKind::gauss_seidel, SolverKind::hierarchical}) {
+        scene.solve.solver = kind;
+        scene.solve.element_size = kind == SolverKind::gauss_seidel ? 0.8 : 0.6; // m; a matrix grows with its square
+        expect_calibrated(test::solved(scene), to_string(kind).c_str());
+    }
+}
+
+// A few points that show many times their light do not decide the figure of all: of 1000 vertices ten that may be
+// wrong by seven times what they show make 10 %, not 70 %.
+TEST(ErrorEstimate, AFewPointsDoNotDecideIt) {
+    std::vector<float> light(1000, 100), deviation(1000, 1), area(1000, 1);
+    std::fill_n(deviation.begin(), 10, 700.0f);
+    const std::vector<std::uint8_t> none(1000, 0);
+    EXPECT_NEAR(relative_rms(light, deviation, {}, area, none), 0.1, 0.002);
+    std::fill_n(deviation.begin(), 10, 1.0f);
+    EXPECT_NEAR(relative_rms(light, deviation, {}, area, none), 0.01, 1e-5);
+}
+
+// The status, the warning and the field speak of one estimate, after an edit too.
+TEST(ErrorEstimate, OneFigureIsTold) {
+    Solution solution = test::solved(with_rays(test::small_room(), 64));
+    const auto told = [&] { return fmt::format("estimated error {:.1f} %,", 100 * solution.field()->scene_error); };
+    EXPECT_EQ(solution.status().estimated_error, solution.field()->scene_error);
+    EXPECT_TRUE(solution.status().message.starts_with(told())) << solution.status().message;
+    EXPECT_NE(solution.status().message.find("64 rays a receiver are the limit set"), std::string::npos);
+    auto dimmed = std::make_shared<Scene>(*solution.scene());
+    dimmed->luminaires[0].dimmer = 0.1;
+    solution.update(dimmed, SolveFrom::sources);
+    test::settle(solution);
+    EXPECT_TRUE(solution.status().message.starts_with(told())) << solution.status().message;
+    // With rays to spare it is not they that are lacking.
+    auto coarse = std::make_shared<Scene>(*solution.scene());
+    coarse->solve.target_error = 0.02;
+    coarse->solve.max_rays = 4096;
+    solution.update(coarse, SolveFrom::transport);
+    test::settle(solution);
+    if (solution.status().estimated_error > 1.1 * 0.02)
+        EXPECT_TRUE(solution.status().message.ends_with("smaller elements would lower it"))
+            << solution.status().message;
+    else
+        EXPECT_EQ(solution.status().message, "");
 }
 
 TEST(ErrorEstimate, IsRightInARoom) {
@@ -59,7 +114,8 @@ TEST(ErrorEstimate, SaysWhatIsMissingBeforeTheFirstBounce) {
         solution.step(test::never);
     ASSERT_FALSE(solution.state().solving);
     const auto field = solution.field();
-    const test::ErrorVerdict verdict = test::judge_vertices(*field, test::true_vertices(solution, true, 150, 1024, 22));
+    const test::ErrorVerdict verdict =
+        test::judge_vertices(solution, *field, test::true_vertices(solution, true, 150, 1024, 22));
     EXPECT_GT(verdict.truth, 0.2);
     EXPECT_GT(verdict.ratio(), 0.5);
     EXPECT_LT(verdict.ratio(), 2);

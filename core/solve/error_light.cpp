@@ -1,0 +1,67 @@
+#include "core/solve/error_light.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+namespace lueur {
+
+namespace {
+
+// Direct light is in what is shown, apart or through form factors; only shooting leaves out luminaires that have not
+// shot yet.
+bool is_shown(const Solution::State& s, std::size_t luminaire) {
+    return s.solver() != SolverKind::shooting || s.luminaire_is_lit(luminaire);
+}
+
+} // namespace
+
+ErrorLight error_light(const Solution::State& s, const ErrorMesh& mesh, const Field& field) {
+    ErrorLight light;
+    const std::size_t count = field.irradiance_xyz.size(), emitters = s.direct->emitter_count();
+    std::vector<double> hidden; // of the luminaires that are not shown
+    for (std::size_t l = 0; l < emitters; ++l) {
+        const double y = xyz_from_channels(*s.wavelengths, std::span<const double>(s.luminaire_exitance[l])).y;
+        light.exitance.push_back(is_shown(s, l) ? y : 0);
+        hidden.push_back(y - light.exitance.back());
+    }
+    for (std::vector<float>* part :
+         {&light.total, &light.direct, &light.indirect, &light.reflected, &light.direct_variance, &light.unlit})
+        part->resize(count);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1024),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                          for (std::size_t v = range.begin(); v < range.end(); ++v) {
+                              const float* factor = s.direct->at_vertex(static_cast<std::uint32_t>(v));
+                              const float* deviations = s.direct->deviation_at_vertex(static_cast<std::uint32_t>(v));
+                              double direct = 0, variance = 0, unlit = 0;
+                              for (std::size_t l = 0; l < emitters; ++l) {
+                                  direct += factor[l] * light.exitance[l];
+                                  const double deviation = deviations[l] * light.exitance[l];
+                                  variance += deviation * deviation;
+                                  unlit += factor[l] * hidden[l];
+                              }
+                              const float y = field.irradiance_xyz[v].y;
+                              light.total[v] = y;
+                              light.direct[v] = static_cast<float>(direct);
+                              light.indirect[v] = y - light.direct[v];
+                              light.reflected[v] = field.reflected_xyz[v].y * std::numbers::pi_v<float>;
+                              light.direct_variance[v] = static_cast<float>(variance);
+                              light.unlit[v] = static_cast<float>(unlit);
+                          }
+                      });
+    double caught = 0, emitted = 0;
+    for (std::size_t v = 0; v < count; ++v) {
+        if (mesh.buried[v]) continue;
+        light.mean += double(mesh.area[v]) * light.total[v];
+        light.mean_indirect += double(mesh.area[v]) * light.indirect[v];
+        caught += double(mesh.area[v]) * light.direct[v];
+    }
+    for (std::size_t l = 0; l < emitters; ++l) emitted += light.exitance[l] * s.direct->emitters()[l].area;
+    if (emitted > 0) light.caught = std::clamp(caught / emitted, 0.0, 1.0);
+    if (mesh.seen_area > 0) light.mean /= mesh.seen_area, light.mean_indirect /= mesh.seen_area;
+    return light;
+}
+
+} // namespace lueur

@@ -1,0 +1,26 @@
+// The light whose error is estimated: luminous, at the vertices, apart by where it comes from.
+#pragma once
+
+#include <vector>
+
+#include "core/solve/error_mesh.h"
+#include "core/solve/field.h"
+#include "core/solve/solution_state.h"
+
+namespace lueur {
+
+struct ErrorLight {
+    std::vector<float> total, direct, indirect; // lx
+    std::vector<float> reflected;               // lm m^-2
+    std::vector<float> direct_variance;         // lx^2, of the shadow rays
+    std::vector<float> unlit;                   // lx, direct light of luminaires that have not shot yet
+    std::vector<double> exitance;               // lm m^-2 of each luminaire whose light is shown
+    double mean_indirect = 0;
+    double mean = 0;   // lx, over the surfaces that are not buried
+    double caught = 1; // of the luminaires' flux by the surfaces: 1 in a closed scene
+};
+
+// Of the solution as `field` shows it: its irradiance and what is reflected of it.
+ErrorLight error_light(const Solution::State& state, const ErrorMesh& mesh, const Field& field);
+
+} // namespace lueur
