@@ -297,9 +297,12 @@ void set_relative_error(const ErrorLight& light, Field& field) {
 
 // Errors have longer tails than the normal distribution: so many standard deviations hold 95 % of the residuals at the
 // probed vertices, the probes' own noise counted in both.
-double interval_factor(const std::vector<Residual>& probes, const std::vector<float>& error) {
-    constexpr double normal = 1.96, least = 2.3, most = 5; // least: Student's t where eight differences tell a variance
-    std::vector<std::pair<double, double>> far;            // standard deviations, area
+double interval_factor(const std::vector<Residual>& probes, const std::vector<float>& error, bool knows_its_rays) {
+    // Student's t where eight differences tell a variance; patches of one radiosity err a whole patch at a time, with
+    // longer tails.
+    const double least = knows_its_rays ? 2.3 : 2.8;
+    constexpr double normal = 1.96, most = 5;
+    std::vector<std::pair<double, double>> far; // standard deviations, area
     double all = 0, noise = 0, stated = 0;
     for (const Residual& r : probes) {
         if (r.point->between) continue;
@@ -410,7 +413,7 @@ void estimate_error(const State& s, Field& field) {
         left_out[v] = 0;
     }
     set_relative_error(light, field);
-    field.interval_factor = interval_factor(probes, field.error);
+    field.interval_factor = interval_factor(probes, field.error, !s.indirect_deviation.empty());
     field.scene_error =
         std::min(1.0, relative_rms(light.total, field.error, field.interpolation_error, area, left_out));
 }

@@ -35,12 +35,14 @@ Refined refine(const Scene& scene, std::uint32_t more) {
     const World world(r.mesh);
     r.coarse_vertices = r.mesh.coarse_vertex_count;
     r.buried.assign(r.coarse_vertices, 0);
-    std::vector<float> distance(r.coarse_vertices);
-    find_buried(world, r.mesh, ray_origins(r.mesh, world.epsilon()), 0, r.coarse_vertices, r.buried, &distance);
+    Surroundings around;
+    around.distance.assign(r.coarse_vertices, 0);
+    around.lit = around.back = around.near = r.buried;
+    find_buried(world, r.mesh, ray_origins(r.mesh, world.epsilon()), 0, r.coarse_vertices, r.buried, &around);
     DirectTransport direct(world, r.mesh, make_emitters(scene), {0.05f, 0.03f, 0.3f, 100000});
     while (!direct.light_vertices(test::never)) {
     }
-    IndirectRefinement refinement(world, r.mesh, direct, r.buried, distance,
+    IndirectRefinement refinement(world, r.mesh, direct, r.buried, around.distance,
                                   {0.04f, 0.09f, 0.03f, r.coarse_vertices + more});
     while (!refinement.step(test::never)) {
     }
