@@ -319,8 +319,10 @@ TEST(RunChart, MarksWhatDoesNotSettle) {
         EXPECT_EQ(run.end, RunEnd::not_started);
         EXPECT_THAT(run.reason, HasSubstr("for all are over"));
     }
-    // All of the light stays for ever: there is no finite solution.
+    // All of the light stays for ever: there is no finite solution, and a path of the reference ends at its limit only.
     params.time_limit = 60;
+    params.points = 2;
+    params.reference_paths = 16;
     params.methods = {gathering};
     const MethodChart furnace = run_chart(test::furnace(1), params, test::never);
     ASSERT_FALSE(furnace.runs.empty());
