@@ -2,7 +2,7 @@
 
 namespace lueur {
 
-// Gathering, for it lies on the front of every class charted so far. `lueur chart --quick` on two shared cores,
+// Gathering, for it lies on the front of every scene charted so far. `lueur chart --quick` on two shared cores,
 // relative RMS error after so many seconds of solving:
 //   few triangles, a lamp (Cornell box, 32): gathering 7.6 % after 0.03, 4.5 % after 0.42, 1.3 % after 0.81;
 //     shooting 21 % after 0.05, 8.7 % after 0.26, 6.6 % after 0.83. The rows of the full matrix of its 3,360 elements

@@ -194,12 +194,7 @@ std::vector<double> irradiance_at(const Solution::State& s, std::uint32_t elemen
     }
     if (s.solving && s.solver() != SolverKind::reference) {
         const bool at_all_vertices = s.indirect().count == s.mesh.vertices.size();
-        const Located read = at_all_vertices ? at_point
-                             : s.indirect().count > s.mesh.coarse_vertex_count
-                                 ? locate_indirect(s.mesh, element, b1, b2)
-                                 : Located{s.mesh.nodes[element].vertices, {1 - b1 - b2, b1, b2}};
-        const glm::uvec3 corners = read.vertices;
-        const glm::vec3 weights = read.weights;
+        const auto [corners, weights] = locate_on_level(s.mesh, s.indirect().count, element, b1, b2);
         const auto counts = [&](int k) { return at_all_vertices || !s.buried[corners[k]]; };
         float sum = 0;
         for (int k = 0; k < 3; ++k)

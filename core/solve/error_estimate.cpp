@@ -53,14 +53,6 @@ std::uint32_t solved_vertices(const State& s) {
     return count > 0 && count < s.mesh.vertices.size() ? count : s.mesh.coarse_vertex_count;
 }
 
-const ErrorMesh& error_mesh_of(const State& s) {
-    std::vector<std::uint8_t> buried = s.all_buried();
-    const std::uint32_t level = solved_vertices(s);
-    if (!s.error_mesh.is_of(s.mesh, level, buried))
-        s.error_mesh = make_error_mesh(s.mesh, level, std::move(buried), s.buried);
-    return s.error_mesh;
-}
-
 // Variances by cause, at the fine vertices.
 struct Model {
     std::vector<float> direct;  // of the shadow rays
@@ -118,8 +110,8 @@ struct Residual {
     double model_direct, model_rays, model_bent, model_between;
     double bright; // lx, what an error here is relative to: the larger of what is shown and what was gathered
     double area;   // m^2 that counts: none where it is dark
-    double
-        weight; // area over bright squared: sums of squares become relative, and no point counts for more than itself
+    // Area over bright squared: sums of squares become relative, and no point counts for more than itself.
+    double weight;
 };
 
 double read(std::span<const float> values, const ErrorProbes::Point& p) {
@@ -352,6 +344,14 @@ void know_nothing(const ErrorLight& light, Field& field) {
 }
 
 } // namespace
+
+const ErrorMesh& error_mesh_of(const State& s) {
+    std::vector<std::uint8_t> buried = s.all_buried();
+    const std::uint32_t level = solved_vertices(s);
+    if (!s.error_mesh.is_of(s.mesh, level, buried))
+        s.error_mesh = make_error_mesh(s.mesh, level, std::move(buried), s.buried);
+    return s.error_mesh;
+}
 
 double relative_rms(const std::vector<float>& illuminance, const std::vector<float>& deviation,
                     const std::vector<float>& between, const std::vector<float>& area,

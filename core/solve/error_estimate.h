@@ -19,6 +19,9 @@
 
 namespace lueur {
 
+// What is kept of the mesh as it is now.
+const ErrorMesh& error_mesh_of(const Solution::State& state);
+
 // Fills the error members of a composed field. Everything else of it must be there.
 void estimate_error(const Solution::State& state, Field& field);
 

@@ -2,7 +2,6 @@
 #include "core/solve/hierarchy.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -57,7 +56,7 @@ std::uint32_t Hierarchy::level_count() const {
 }
 
 bool Hierarchy::step(const std::atomic<bool>& cancel) {
-    const auto start = std::chrono::steady_clock::now();
+    TimeSlice slice(cancel);
     while (phase_ != Phase::settled && phase_ != Phase::failed && !cancel.load(std::memory_order_relaxed)) {
         switch (phase_) {
         case Phase::look:
@@ -74,7 +73,7 @@ bool Hierarchy::step(const std::atomic<bool>& cancel) {
         case Phase::failed:
             break;
         }
-        if (std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > step_seconds) break;
+        if (slice.over()) break;
     }
     return phase_ != Phase::settled && phase_ != Phase::failed;
 }

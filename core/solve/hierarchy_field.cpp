@@ -1,7 +1,6 @@
 #include "core/solve/hierarchy_field.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include <tbb/blocked_range.h>
@@ -12,6 +11,8 @@
 namespace lueur {
 
 namespace {
+
+constexpr std::uint32_t nodes_a_look = 64; // at the clock
 
 struct Box {
     glm::vec3 low{1e30f}, high{-1e30f};
@@ -48,29 +49,8 @@ float smallest_leaf(const ElementTree& tree, std::uint32_t n, const Box& box, fl
 
 } // namespace
 
-namespace {
-
-// Looks at the clock now and then.
-class Slice {
-public:
-    explicit Slice(const std::atomic<bool>& cancel)
-        : cancel_(cancel) {}
-    bool over() {
-        if (++calls_ % 64 != 0) return false;
-        return cancel_.load(std::memory_order_relaxed) ||
-               std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count() > step_seconds;
-    }
-
-private:
-    const std::atomic<bool>& cancel_;
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-    std::uint32_t calls_ = 0;
-};
-
-} // namespace
-
 bool LeafMesh::cut(const ElementTree& tree, std::uint32_t most_vertices, const std::atomic<bool>& cancel) {
-    Slice slice(cancel);
+    TimeSlice slice(cancel, nodes_a_look);
     while (node_ < mesh_.nodes.size()) { // grows while it runs
         const std::uint32_t n = node_++;
         const std::uint32_t root = root_of(tree, mesh_, mesh_.nodes[n].coarse);
@@ -92,7 +72,7 @@ bool LeafMesh::cut(const ElementTree& tree, std::uint32_t most_vertices, const s
 
 bool LeafMesh::read(const ElementTree& tree, const std::atomic<bool>& cancel) {
     if (element_ == 0) readings_.assign(mesh_.vertices.size(), {});
-    Slice slice(cancel);
+    TimeSlice slice(cancel, nodes_a_look);
     while (element_ < mesh_.elements.size()) {
         const std::uint32_t e = element_++;
         const glm::uvec3 v = mesh_.elements[e];

@@ -1,7 +1,6 @@
 #include "core/solve/hierarchy_final.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 
@@ -24,32 +23,18 @@ void for_nodes_above(const ElementTree& tree, std::uint32_t leaf, const F& f) {
 
 constexpr std::uint32_t vertices_a_look = 256; // at the clock
 
-class FinalSlice {
-public:
-    explicit FinalSlice(const std::atomic<bool>& cancel)
-        : cancel_(cancel) {}
-    bool over() const {
-        return cancel_.load(std::memory_order_relaxed) ||
-               std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count() > step_seconds;
-    }
-
-private:
-    const std::atomic<bool>& cancel_;
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
 } // namespace
 
 bool FinalGather::count_factors(const Hierarchy& hierarchy, const std::vector<LeafReading>& readings,
                                 const std::vector<std::uint8_t>& buried, const std::atomic<bool>& cancel,
                                 Count& count) {
-    const FinalSlice slice(cancel);
+    TimeSlice slice(cancel, vertices_a_look);
     while (count.vertices < readings.size()) {
         const std::uint32_t v = count.vertices++;
         if (!buried[v])
             for_nodes_above(hierarchy.tree(), readings[v].leaf,
                             [&](std::uint32_t n) { count.factors += hierarchy.links_of(n).size(); });
-        if (count.vertices % vertices_a_look == 0 && slice.over()) break;
+        if (slice.over()) break;
     }
     return count.vertices >= readings.size();
 }
@@ -69,7 +54,7 @@ FinalGather::FinalGather(const Mesh& mesh, const std::vector<glm::vec3>& origins
 }
 
 bool FinalGather::trace(const World& world, const Hierarchy& hierarchy, const std::atomic<bool>& cancel) {
-    const FinalSlice slice(cancel);
+    TimeSlice slice(cancel, vertices_a_look);
     while (listed_ < vertices_) {
         const std::uint32_t v = listed_++;
         if (!buried_[v])
@@ -78,7 +63,7 @@ bool FinalGather::trace(const World& world, const Hierarchy& hierarchy, const st
             });
         factor_.resize(source_.size(), 0.0f);
         first_.push_back(source_.size());
-        if (listed_ % vertices_a_look == 0 && slice.over()) return false;
+        if (slice.over()) return false;
     }
     return run_slice(cursor_, vertices_, 8, cancel, [&](std::uint32_t first, std::uint32_t last) {
         for (std::uint32_t v = first; v < last; ++v) look_from(world, hierarchy, v);

@@ -1,12 +1,12 @@
 #include "core/solve/settled_words.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 
 #include <fmt/format.h>
 
+#include "core/solve/error_estimate.h"
 #include "core/solve/solution_steps.h"
 #include "core/transport/time_slice.h"
 
@@ -107,8 +107,9 @@ std::string words_of_unsent(const State& s) {
 FluxBalance flux_balance(const State& s, const Field& field) {
     FluxBalance balance;
     const std::size_t count = field.irradiance_xyz.size();
-    const std::vector<float> area = vertex_areas(s.mesh);
-    const std::vector<std::uint8_t> buried = s.all_buried();
+    const ErrorMesh& mesh = error_mesh_of(s);
+    const std::vector<float>& area = mesh.area;
+    const std::vector<std::uint8_t>& buried = mesh.buried;
     std::vector<double> lit(count), back(count);
     for (std::size_t v = 0; v < count; ++v) {
         if (v < s.around.lit.size()) {
@@ -137,31 +138,31 @@ FluxBalance flux_balance(const State& s, const Field& field) {
 }
 
 bool find_overlap(const Mesh& mesh, const World& world, const std::vector<std::uint8_t>& buried,
-                  const std::atomic<bool>& cancel, std::uint32_t& cursor, Overlap& overlap) {
-    constexpr std::uint32_t elements_a_look = 256; // at the clock
-    const auto start = std::chrono::steady_clock::now();
+                  const std::atomic<bool>& cancel, Overlap& overlap) {
     const float lift = 4 * world.epsilon();
-    const std::uint32_t begun = cursor;
-    while (cursor < mesh.coarse_element_count) {
-        if (cursor % elements_a_look == 0 &&
-            (cancel.load(std::memory_order_relaxed) ||
-             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > step_seconds) &&
-            cursor != begun)
-            return false;
-        const std::uint32_t e = cursor++;
+    overlap.of_element.resize(mesh.coarse_element_count, no_index);
+    const auto look = [&](std::uint32_t e) {
         const glm::uvec3 v = mesh.nodes[e].vertices;
-        if (buried[v.x] && buried[v.y] && buried[v.z]) continue;
+        if (buried[v.x] && buried[v.y] && buried[v.z]) return;
         const glm::vec3 a = mesh.vertices[v.x].position, b = mesh.vertices[v.y].position,
                         c = mesh.vertices[v.z].position;
         const glm::vec3 normal = glm::cross(b - a, c - a);
         const float length = glm::length(normal);
-        if (!(length > 0)) continue;
+        if (!(length > 0)) return;
         // Not at the middle, where a diagonal of the other face may run.
         const glm::vec3 p = 0.42f * a + 0.31f * b + 0.27f * c, n = normal / length;
         const Hit hit = world.closest({p + lift * n, -n, 0, 2 * lift});
-        if (hit.element == no_index || mesh.coarse_surface[hit.element] == mesh.coarse_surface[e]) continue;
+        if (hit.element != no_index && mesh.coarse_surface[hit.element] != mesh.coarse_surface[e])
+            overlap.of_element[e] = mesh.coarse_surface[hit.element];
+    };
+    if (!run_slice(overlap.cursor, mesh.coarse_element_count, 64, cancel, [&](std::uint32_t first, std::uint32_t last) {
+            for (std::uint32_t e = first; e < last; ++e) look(e);
+        }))
+        return false;
+    for (std::uint32_t e = 0; e < mesh.coarse_element_count; ++e) {
+        if (overlap.of_element[e] == no_index) continue;
         overlap.area += double(mesh.coarse_area[e]);
-        overlap.surface = mesh.coarse_surface[e], overlap.other = mesh.coarse_surface[hit.element];
+        overlap.surface = mesh.coarse_surface[e], overlap.other = overlap.of_element[e];
     }
     return true;
 }

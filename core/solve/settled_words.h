@@ -24,9 +24,9 @@ struct FluxBalance {
 };
 FluxBalance flux_balance(const Solution::State& state, const Field& field);
 
-// A slice, from coarse element `cursor` on; true at the end.
+// A slice; true at the end.
 bool find_overlap(const Mesh& mesh, const World& world, const std::vector<std::uint8_t>& buried,
-                  const std::atomic<bool>& cancel, std::uint32_t& cursor, Overlap& overlap);
+                  const std::atomic<bool>& cancel, Overlap& overlap);
 
 std::string settled_words(const Solution::State& state, const Field& field); // empty: nothing to be said
 

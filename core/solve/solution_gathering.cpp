@@ -118,8 +118,9 @@ void update_error(State& s) {
     s.indirect_deviation.resize(s.receivers.of_vertex.size());
     for (std::uint32_t v = 0; v < s.indirect_deviation.size(); ++v)
         s.indirect_deviation[v] = std::sqrt(variance[s.receivers.of_vertex[v]]);
-    const double rays = ray_error(s.passes, radiosity, direct, receiver_areas(s));
-    const double unsolved = gathering_missing_share(s, receiver_areas(s), direct);
+    const std::vector<float> areas = receiver_areas(s);
+    const double rays = ray_error(s.passes, radiosity, direct, areas);
+    const double unsolved = gathering_missing_share(s, areas, direct);
     const double interpolation = s.direct->misfit();
     s.status.estimated_error =
         std::min(1.0, std::sqrt(rays * rays + unsolved * unsolved + interpolation * interpolation));
@@ -131,11 +132,15 @@ bool has_no_finite_solution(const State& s) {
     const std::uint32_t n = s.receivers.count();
     if (s.status.emitted_lumens <= 0 || s.passes.empty()) return false;
     for (int c = 0; c < s.channels(); ++c) {
+        const auto is_white = [&](const std::vector<double>& rho) {
+            return rho[static_cast<std::size_t>(c)] >= 1 - least_absorbed;
+        };
+        if (std::none_of(s.material_rho.begin(), s.material_rho.end(), is_white)) continue; // as nearly always
         std::vector<std::uint8_t> ends(n + 1, 1);
         bool any_white = false;
         for (std::uint32_t i = 0; i < n; ++i) {
-            const auto& rho = s.material_rho[s.material_of(s.mesh.vertices[s.receivers.vertex[i]].surface)];
-            ends[i] = s.receivers.buried[i] || rho[static_cast<std::size_t>(c)] < 1 - least_absorbed;
+            ends[i] = s.receivers.buried[i] ||
+                      !is_white(s.material_rho[s.material_of(s.mesh.vertices[s.receivers.vertex[i]].surface)]);
             any_white = any_white || !ends[i];
         }
         for (bool changed = any_white; changed;) {

@@ -6,7 +6,6 @@
 // area at the vertices of the same surface (correction 36).
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -97,7 +96,7 @@ double missing_share(const State& s) {
 std::string hopeless(const State& s, double enough) {
     const std::vector<double>& u = s.patch_solve.history;
     if (u.back() <= enough) return {};
-    if (!u.empty() && !std::isfinite(u.back())) return "the solver lost its way on this scene: no finite radiosities";
+    if (!std::isfinite(u.back())) return "the solver lost its way on this scene: no finite radiosities";
     if (u.size() <= 2 * rate_sweeps) return {};
     const double rate = std::pow(u.back() / u[u.size() - 1 - rate_sweeps], 1.0 / rate_sweeps);
     if (rate < 1) {
@@ -135,7 +134,7 @@ bool trace_matrix_probes(State& s, const std::atomic<bool>& cancel) {
 
 void take_shots(State& s, const std::atomic<bool>& cancel, bool one_shot, double enough) {
     MatrixSystem& system = s.patch_solve.system;
-    const auto start = std::chrono::steady_clock::now();
+    TimeSlice slice(cancel);
     bool hopeless = false; // when it ends is counted in shots, never in time
     do {
         if (!system.shoot(true)) break;
@@ -143,8 +142,7 @@ void take_shots(State& s, const std::atomic<bool>& cancel, bool one_shot, double
         if (s.status.shots % s.patch_solve.matrix.n != 0) continue;
         s.patch_solve.history.push_back(system.unshot_share());
         hopeless = !hopeless_shots(s, enough).empty();
-    } while (!one_shot && system.unshot_share() > enough && !hopeless && !cancel.load(std::memory_order_relaxed) &&
-             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < step_seconds);
+    } while (!one_shot && system.unshot_share() > enough && !hopeless && !slice.over());
     system.refresh();
     const std::uint32_t shooter = system.last_shooter();
     s.status.shooting_patch = no_index;

@@ -1,6 +1,5 @@
 // Progressive shooting in a solution: luminaires first, then the patch with most unshot flux, as long as it matters.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -76,7 +75,7 @@ void start_shooting(State& s) {
 
 void step_shooting(State& s, const std::atomic<bool>& cancel, bool one_shot) {
     s.status.stage = SolveStage::solving;
-    const auto start = std::chrono::steady_clock::now();
+    TimeSlice slice(cancel);
     const std::uint64_t rays_before = s.shooting.rays();
     const double enough = unshot_part * s.scene->solve.target_error;
     const double most = most_shots_of_a_patch * s.shooting.patches();
@@ -86,8 +85,7 @@ void step_shooting(State& s, const std::atomic<bool>& cancel, bool one_shot) {
     do {
         more = s.shooting.shoot();
     } while (more && !one_shot && s.shooting.missing_share() > enough && !hopeless() &&
-             !cancel.load(std::memory_order_relaxed) && s.shooting.luminaires_shot() == s.direct->emitter_count() &&
-             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < step_seconds);
+             s.shooting.luminaires_shot() == s.direct->emitter_count() && !slice.over());
     s.status.rays += s.shooting.rays() - rays_before;
     s.status.shots = s.shooting.shots();
     s.status.shooting_patch = s.shooting.last_shooter();

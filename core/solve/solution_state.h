@@ -29,6 +29,8 @@ struct TracedField; // traced_field.h
 struct Overlap {
     double area = 0; // m^2
     std::uint32_t surface = no_index, other = no_index;
+    std::vector<std::uint32_t> of_element; // of each coarse element: in the plane of which surface it lies
+    std::uint32_t cursor = 0;
 };
 
 // Mesh to refine make what all solvers stand on; transport is a solver's own (rays, a matrix, links), solve its sweeps
@@ -55,7 +57,6 @@ struct Solution::State {
     Receivers receivers;              // who gathers for them
     Surroundings around;              // of coarse vertices
     Overlap overlap;
-    std::uint32_t overlap_cursor = 0;
     std::unique_ptr<IndirectRefinement> indirect_refinement; // cuts `mesh` first
     struct IndirectLevel {                                   // what came of it
         std::uint32_t vertices = 0, nodes = 0;
@@ -121,8 +122,8 @@ struct Solution::State {
     // Irradiance at coarse vertices, at those of the level of indirect light (gathering), or at all (hierarchical).
     const ChannelField& indirect() const;
     std::vector<float> ambient() const; // irradiance to be added for display; only shooting has some
-    std::vector<float>
-    unshot_at_vertices() const;      // luminous exitance that is still to be sent on, at the first vertices
+    // Luminous exitance that is still to be sent on, at the first vertices.
+    std::vector<float> unshot_at_vertices() const;
     bool direct_light_apart() const; // all of it shown by DirectTransport, not by the solver
     SolverKind solver() const;       // that is at work, never automatic
     bool is_traced() const;          // fine vertices have their whole irradiance from paths

@@ -19,9 +19,9 @@ bool refine_indirect(State& s, const std::atomic<bool>& cancel) {
     if (!s.indirect_refinement)
         s.indirect_refinement = std::make_unique<IndirectRefinement>(
             *s.world, s.mesh, *s.direct, s.buried, s.around.distance,
-            IndirectParams{0.04f, static_cast<float>(receiver_cell * s.element_size),
-                           static_cast<float>(s.element_size / 8),
-                           s.mesh.coarse_vertex_count + 1000 + s.receivers.count() / 8});
+            IndirectParams{.smallest_element = static_cast<float>(receiver_cell * s.element_size),
+                           .smallest_edge = static_cast<float>(s.element_size / 8),
+                           .most_vertices = s.mesh.coarse_vertex_count + 1000 + s.receivers.count() / 8});
     const std::uint64_t rays = s.indirect_refinement->rays();
     const bool done = s.indirect_refinement->step(cancel);
     s.status.rays += s.indirect_refinement->rays() - rays;
@@ -65,8 +65,9 @@ void step_mesh(State& s) {
     s.around.back = s.around.near = s.around.lit;
     s.around.distance.assign(s.mesh.coarse_vertex_count, 0);
     s.around.near_distance = static_cast<float>(near_share * s.element_size);
-    const DirectParams params{0.05f, static_cast<float>(s.element_size / 8), static_cast<float>(s.element_size),
-                              s.mesh.coarse_vertex_count + fine_vertices};
+    const DirectParams params{.smallest_edge = static_cast<float>(s.element_size / 8),
+                              .element_size = static_cast<float>(s.element_size),
+                              .most_vertices = s.mesh.coarse_vertex_count + fine_vertices};
     s.direct = std::make_unique<DirectTransport>(*s.world, s.mesh, make_emitters(*s.scene), params);
     s.coarse_area = s.indirect_area = vertex_areas(s.mesh);
     publish_mesh(s);
@@ -91,7 +92,7 @@ void step_burial(State& s, const std::atomic<bool>& cancel) {
             find_buried(*s.world, s.mesh, s.origins, first, last, s.buried, &s.around);
         }))
         return;
-    if (!find_overlap(s.mesh, *s.world, s.buried, cancel, s.overlap_cursor, s.overlap)) return;
+    if (!find_overlap(s.mesh, *s.world, s.buried, cancel, s.overlap)) return;
     s.status.rays += std::uint64_t(s.mesh.coarse_vertex_count) * burial_rays + s.mesh.coarse_element_count;
     s.receivers = make_receivers(*s.scene, s.mesh, s.buried, static_cast<float>(receiver_cell * s.element_size));
     s.status.matrix_patches = matrix_size(s.mesh, s.scene->solve.matrix_memory).patches;

@@ -22,17 +22,6 @@ constexpr std::size_t few_triangles = 4; // no dearer than the points
 // chance: sqrt(sqrt(n) / 6) / n.
 constexpr double point_penumbra_deviation = 0.028;
 
-// cos cos / r^2 from a receiver to a point of an emitter; 0 when one is behind the other.
-float kernel(glm::vec3 origin, glm::vec3 normal, const EmitterPoint& p) {
-    const glm::vec3 d = p.position - origin;
-    const float r2 = glm::dot(d, d), cos_receiver = glm::dot(d, normal), cos_emitter = -glm::dot(d, p.normal);
-    return cos_receiver > 0 && cos_emitter > 0 && r2 > 0 ? cos_receiver * cos_emitter / (r2 * r2) : 0;
-}
-
-bool sees(const World& world, glm::vec3 origin, glm::vec3 target) {
-    return !world.occluded({origin, target - origin, 0, 1 - 1e-4f});
-}
-
 double exact_form_factor(const Emitter& emitter, glm::vec3 origin, glm::vec3 normal) {
     double sum = 0;
     for (const EmitterTriangle& t : emitter.triangles) {
@@ -82,6 +71,16 @@ void choose_probes(Emitter& emitter) {
 
 } // namespace
 
+float emitter_kernel(glm::vec3 origin, glm::vec3 normal, const EmitterPoint& p) {
+    const glm::vec3 d = p.position - origin;
+    const float r2 = glm::dot(d, d), cos_receiver = glm::dot(d, normal), cos_emitter = -glm::dot(d, p.normal);
+    return cos_receiver > 0 && cos_emitter > 0 && r2 > 0 ? cos_receiver * cos_emitter / (r2 * r2) : 0;
+}
+
+bool sees(const World& world, glm::vec3 origin, glm::vec3 target) {
+    return !world.occluded({origin, target - origin, 0, 1 - 1e-4f});
+}
+
 EmitterPoint emitter_point(const Emitter& emitter, glm::vec2 u) {
     const float target = u.x * emitter.area;
     const auto found = std::upper_bound(emitter.cumulative_area.begin(), emitter.cumulative_area.end(), target);
@@ -124,7 +123,7 @@ float direct_form_factor(const World& world, const Emitter& emitter, glm::vec3 o
     if (nothing_arrives(emitter, origin, normal)) return 0;
     int seen = 0, facing = 0;
     for (const EmitterPoint& p : emitter.probes) {
-        if (kernel(origin, normal, p) <= 0) continue;
+        if (emitter_kernel(origin, normal, p) <= 0) continue;
         ++facing;
         seen += sees(world, origin, p.position);
     }
@@ -145,7 +144,7 @@ float direct_form_factor(const World& world, const Emitter& emitter, glm::vec3 o
     if (!exact || !subdivided) {
         double visible = 0, all = 0;
         for (const EmitterPoint& p : emitter.points) {
-            const float g = kernel(origin, normal, p);
+            const float g = emitter_kernel(origin, normal, p);
             if (g <= 0) continue;
             all += g;
             if (wholly_seen || (!subdivided && (++rays, sees(world, origin, p.position)))) visible += g;
@@ -167,7 +166,7 @@ float direct_form_factor_sketch(const World& world, const Emitter& emitter, glm:
                                 std::uint32_t choice) {
     if (nothing_arrives(emitter, origin, normal)) return 0;
     const EmitterPoint& p = emitter.probes[choice % emitter.probes.size()];
-    const float f = kernel(origin, normal, p) * emitter.area / std::numbers::pi_v<float>;
+    const float f = emitter_kernel(origin, normal, p) * emitter.area / std::numbers::pi_v<float>;
     return f > 0 && sees(world, origin, p.position) ? std::min(f, 1.0f) : 0;
 }
 
@@ -177,7 +176,7 @@ float direct_form_factor_sampled(const World& world, const Emitter& emitter, glm
     double visible = 0, all = 0;
     for (int k = 0; k < samples; ++k) {
         const EmitterPoint p = emitter_point(emitter, r2_point(static_cast<std::uint32_t>(k), offset));
-        const float g = kernel(origin, normal, p);
+        const float g = emitter_kernel(origin, normal, p);
         if (g <= 0) continue;
         all += g;
         if (sees(world, origin, p.position)) visible += g;

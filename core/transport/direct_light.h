@@ -37,6 +37,11 @@ struct Emitter {
     std::vector<float> cumulative_area; // one a triangle, ends at `area`
 };
 
+// cos cos / r^2 from a receiver to a point of an emitter; 0 when one is behind the other.
+float emitter_kernel(glm::vec3 origin, glm::vec3 normal, const EmitterPoint& point);
+// Whether nothing is between a receiver and a point of an emitter.
+bool sees(const World& world, glm::vec3 origin, glm::vec3 target);
+
 std::vector<Emitter> make_emitters(const Scene& scene);
 
 // A point of the emitter, uniform by area, for u in the unit square.

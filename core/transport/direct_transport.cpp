@@ -26,7 +26,7 @@ DirectTransport::DirectTransport(const World& world, Mesh& mesh, std::vector<Emi
     , mesh_(mesh)
     , emitters_(std::move(emitters))
     , params_(params)
-    , bisection_(mesh) {
+    , edges_(mesh) {
     for (const Emitter& e : emitters_) weight_.push_back(e.area > 0 ? 1 / e.area : 0);
     origins_ = ray_origins(mesh_, world_.epsilon());
     factors_.assign(mesh_.vertices.size() * emitters_.size(), 0);
@@ -65,7 +65,7 @@ double DirectTransport::progress() const {
     if (sketch_cursor_ < mesh_.vertices.size() && vertex_cursor_ == 0)
         return double(sketch_cursor_) / double(mesh_.vertices.size());
     if (vertex_cursor_ < mesh_.vertices.size()) return double(vertex_cursor_) / double(mesh_.vertices.size());
-    return refined_ || edges_.empty() ? 1 : double(edge_cursor_) / double(edges_.size());
+    return refined_ || edges_.edges().empty() ? 1 : double(edge_cursor_) / double(edges_.edges().size());
 }
 
 bool DirectTransport::sketch(const std::atomic<bool>& cancel) {
@@ -100,87 +100,42 @@ bool DirectTransport::light_vertices(const std::atomic<bool>& cancel) {
     return done;
 }
 
-// The middles of the edges of all leaves not looked at yet.
-void DirectTransport::collect_edges() {
-    edges_.clear();
-    edge_slot_.clear();
+void DirectTransport::begin_level() {
+    edges_.collect(params_.smallest_edge, [](std::uint32_t, std::uint32_t) { return true; });
     edge_cursor_ = 0;
-    open_.clear();
-    const float smallest2 = params_.smallest_edge * params_.smallest_edge;
-    for (; next_node_ < mesh_.nodes.size(); ++next_node_)
-        if (mesh_.nodes[next_node_].children == no_index) open_.push_back(next_node_);
-    for (const std::uint32_t n : open_) {
-        const glm::uvec3 v = mesh_.nodes[n].vertices;
-        const int longest = bisection_->longest_edge(n);
-        if (bisection_->edge_length(v[longest], v[(longest + 1) % 3]) < smallest2) continue;
-        const glm::vec3 centre =
-            (mesh_.vertices[v.x].position + mesh_.vertices[v.y].position + mesh_.vertices[v.z].position) / 3.0f;
-        for (int k = 0; k < 3; ++k) {
-            const std::uint32_t a = v[k], b = v[(k + 1) % 3];
-            const std::uint64_t key = Bisection::edge_key(a, b);
-            if (straight_.contains(key)) continue;
-            const auto [where, fresh] = edge_slot_.try_emplace(key, static_cast<std::uint32_t>(edges_.size()));
-            if (fresh) edges_.push_back({std::min(a, b), std::max(a, b), glm::vec3(0), 0});
-            edges_[where->second].inward += centre;
-            edges_[where->second].elements += 1;
-        }
-    }
-    edge_factors_.assign(edges_.size() * emitters_.size(), 0);
+    edge_factors_.assign(edges_.edges().size() * emitters_.size(), 0);
     edge_deviations_ = edge_factors_;
 }
 
 void DirectTransport::split_bent() {
-    std::vector<float> bent(edges_.size(), 0); // the misfit where it is too large
-    for (std::size_t e = 0; e < edges_.size(); ++e) {
-        const EdgeMiddle& edge = edges_[e];
+    std::vector<float> bent(edges_.edges().size(), 0); // the misfit where it is too large
+    for (std::size_t e = 0; e < bent.size(); ++e) {
+        const EdgeRefinement::Edge& edge = edges_.edges()[e];
         const float here = equal_flux_light(edge_factors_.data() + e * emitters_.size());
         const float guess = 0.5f * (equal_flux_light(at_vertex(edge.a)) + equal_flux_light(at_vertex(edge.b)));
         const float scale = std::max({here, guess, floor_});
         const float misfit = scale > 0 ? std::abs(here - guess) / scale : 0;
         const bool inside = buried_[edge.a] && buried_[edge.b];
         bent[e] = misfit > params_.tolerance && !inside ? misfit : 0;
-        if (bent[e] == 0) {
-            straight_.emplace(Bisection::edge_key(edge.a, edge.b), 1);
-            if (!inside) misfit_sum_ += double(misfit) * misfit, ++misfit_count_;
-        }
+        if (bent[e] == 0 && !inside) misfit_sum_ += double(misfit) * misfit, ++misfit_count_;
     }
     const std::uint32_t before = static_cast<std::uint32_t>(mesh_.vertices.size());
-    // Where there are more than may be added, the largest misfits by area come first.
-    std::vector<std::pair<float, std::uint32_t>> wanted;
-    for (const std::uint32_t n : open_) {
-        const glm::uvec3 v = mesh_.nodes[n].vertices;
-        float worst = 0;
-        for (int k = 0; k < 3; ++k) {
-            const auto slot = edge_slot_.find(Bisection::edge_key(v[k], v[(k + 1) % 3]));
-            if (slot != edge_slot_.end()) worst = std::max(worst, bent[slot->second]);
-        }
-        const int longest = bisection_->longest_edge(n);
-        if (worst > 0) wanted.emplace_back(worst * bisection_->edge_length(v[longest], v[(longest + 1) % 3]), n);
-    }
-    std::sort(wanted.begin(), wanted.end(), [](const auto& a, const auto& b) {
-        return a.first != b.first ? a.first > b.first : a.second < b.second;
-    });
-    for (const auto& [misfit, n] : wanted) {
-        if (mesh_.vertices.size() >= params_.most_vertices) break;
-        if (mesh_.nodes[n].children == no_index) bisection_->split(n);
-    }
+    edges_.split(bent, params_.most_vertices);
     // New vertices at middles that were looked at are lit already; the others (made for conformity) are lit now.
     const std::uint32_t after = static_cast<std::uint32_t>(mesh_.vertices.size());
     factors_.resize(std::size_t(after) * emitters_.size(), 0);
     deviations_.resize(factors_.size(), 0);
     buried_.resize(after, 0);
-    list_leaves(mesh_);
     origins_ = ray_origins(mesh_, world_.epsilon());
     area_ = vertex_areas(mesh_);
     tbb::parallel_for(
         tbb::blocked_range<std::uint32_t>(before, after, 16), [&](const tbb::blocked_range<std::uint32_t>& range) {
             for (std::uint32_t v = range.begin(); v < range.end(); ++v) {
-                const auto& parents = mesh_.vertices[v].parents;
-                const auto slot = edge_slot_.find(Bisection::edge_key(parents[0], parents[1]));
+                const std::uint32_t looked_at = edges_.edge_of(v);
                 const std::size_t row = std::size_t(v) * emitters_.size();
                 float *factors = factors_.data() + row, *deviations = deviations_.data() + row;
-                if (slot != edge_slot_.end()) {
-                    const std::size_t edge = std::size_t(slot->second) * emitters_.size();
+                if (looked_at != no_index) {
+                    const std::size_t edge = std::size_t(looked_at) * emitters_.size();
                     std::copy_n(edge_factors_.data() + edge, emitters_.size(), factors);
                     std::copy_n(edge_deviations_.data() + edge, emitters_.size(), deviations);
                 } else
@@ -238,28 +193,25 @@ void DirectTransport::follow_mesh() {
     }
     origins_ = ray_origins(mesh_, world_.epsilon());
     area_ = vertex_areas(mesh_);
-    if (!refined_) bisection_.emplace(mesh_); // refine() goes on from here
+    if (!refined_) edges_.follow_mesh(); // refine() goes on from here
     level_begun_ = false;
 }
 
 bool DirectTransport::refine(const std::atomic<bool>& cancel) {
     if (refined_ || emitters_.empty()) return true;
     if (!level_begun_) {
-        collect_edges();
+        begin_level();
         level_begun_ = true;
     }
     const float epsilon = world_.epsilon();
     const bool done = run_slice(
-        edge_cursor_, static_cast<std::uint32_t>(edges_.size()), 32, cancel,
+        edge_cursor_, static_cast<std::uint32_t>(edges_.edges().size()), 32, cancel,
         [&](std::uint32_t first, std::uint32_t last) {
             for (std::uint32_t e = first; e < last; ++e) {
-                const EdgeMiddle& edge = edges_[e];
-                const MeshVertex &a = mesh_.vertices[edge.a], &b = mesh_.vertices[edge.b];
-                const glm::vec3 middle = 0.5f * (a.position + b.position);
-                const glm::vec3 sum = a.normal + b.normal;
-                const glm::vec3 normal = glm::dot(sum, sum) > 1e-12f ? glm::normalize(sum) : a.normal;
-                light(ray_origin(middle, normal, edge.inward / float(edge.elements), epsilon), normal,
-                      glm::length(b.position - a.position), edge_factors_.data() + std::size_t(e) * emitters_.size(),
+                const EdgeRefinement::Edge& edge = edges_.edges()[e];
+                const EdgeRefinement::Place middle = edges_.middle(edge, epsilon);
+                const float length = glm::distance(mesh_.vertices[edge.a].position, mesh_.vertices[edge.b].position);
+                light(middle.origin, middle.normal, length, edge_factors_.data() + std::size_t(e) * emitters_.size(),
                       edge_deviations_.data() + std::size_t(e) * emitters_.size());
             }
         });

@@ -7,19 +7,17 @@
 
 #include <atomic>
 #include <cstdint>
-#include <optional>
-#include <unordered_map>
 #include <vector>
 
-#include "core/transport/bisection.h"
 #include "core/transport/direct_light.h"
+#include "core/transport/edge_refinement.h"
 #include "core/transport/mesh.h"
 #include "core/transport/world.h"
 
 namespace lueur {
 
 struct DirectParams {
-    float tolerance = 0.03f; // relative misfit of an edge's middle that splits it
+    float tolerance = 0.05f; // relative misfit of an edge's middle that splits it
     float smallest_edge = 0; // m: shorter edges are not split
     float element_size = 0;  // m: what stands for less than such an element is lit less finely
     std::uint32_t most_vertices = 60000;
@@ -59,21 +57,17 @@ public:
     double progress() const; // of the stage that runs, 0..1
 
 private:
-    struct EdgeMiddle {
-        std::uint32_t a, b;
-        glm::vec3 inward{0};
-        int elements = 0;
-    };
     void light(glm::vec3 origin, glm::vec3 normal, float size, float* factors, float* deviations) const;
     void spread_deviations();
-    void collect_edges();
+    void begin_level();
     void split_bent();
 
     const World& world_;
     Mesh& mesh_;
     std::vector<Emitter> emitters_;
     DirectParams params_;
-    std::optional<Bisection> bisection_;
+    EdgeRefinement edges_; // of this level, and their D:
+    std::vector<float> edge_factors_, edge_deviations_;
     std::vector<float> weight_;               // exitance of each emitter at equal flux
     std::vector<float> factors_, deviations_; // vertices * emitters
     std::vector<std::uint8_t> buried_;
@@ -81,12 +75,7 @@ private:
     std::vector<float> area_; // m^2, of each vertex
     std::uint32_t sketch_cursor_ = 0, vertex_cursor_ = 0;
 
-    std::vector<EdgeMiddle> edges_; // of this level, and their D
-    std::vector<float> edge_factors_, edge_deviations_;
-    std::unordered_map<std::uint64_t, std::uint32_t> edge_slot_;
-    std::unordered_map<std::uint64_t, std::uint8_t> straight_; // edges of earlier levels whose middle was right
-    std::vector<std::uint32_t> open_;                          // leaves still to be looked at
-    std::uint32_t edge_cursor_ = 0, next_node_ = 0;
+    std::uint32_t edge_cursor_ = 0;
     bool level_begun_ = false, refined_ = false;
     float floor_ = 0;
     double misfit_ = 0, misfit_sum_ = 0;

@@ -33,7 +33,7 @@ public:
     void add(Place corner, int size) {
         const Place b = corner + Place(size, 0), c = corner + Place(0, size);
         const double kernel = kernel_at((glm::vec2(corner) + glm::vec2(b) + glm::vec2(c)) / 3.0f);
-        const int seen = sees(corner) + sees(b) + sees(c);
+        const int seen = seen_at(corner) + seen_at(b) + seen_at(c);
         if (seen % 3 != 0 && std::abs(size) > finest_) {
             const int half = size / 2;
             add(corner, half);
@@ -60,17 +60,15 @@ private:
         return p[0] + b.x * (p[1] - p[0]) + b.y * (p[2] - p[0]);
     }
     double kernel_at(glm::vec2 place) const {
-        const glm::vec3 d = at(place) - origin_;
-        const float r2 = glm::dot(d, d), cosines = glm::dot(d, normal_) * -glm::dot(d, triangle_.normal);
-        return glm::dot(d, normal_) > 0 && r2 > 0 ? std::max(0.0, double(cosines) / (double(r2) * r2)) : 0;
+        return double(emitter_kernel(origin_, normal_, {at(place), triangle_.normal}));
     }
     // Below the receiver's horizon nothing is seen, and no ray is needed.
-    bool sees(Place place) {
+    bool seen_at(Place place) {
         std::uint8_t& known = known_[static_cast<std::size_t>(place.y * (lattice + 1) + place.x)];
         if (known == unknown) {
-            const glm::vec3 d = at(glm::vec2(place)) - origin_;
+            const glm::vec3 target = at(glm::vec2(place));
             known = hidden;
-            if (glm::dot(d, normal_) > 0 && (++rays, !world_.occluded({origin_, d, 0, 1 - 1e-4f}))) known = seen_;
+            if (glm::dot(target - origin_, normal_) > 0 && (++rays, sees(world_, origin_, target))) known = seen_;
         }
         return known == seen_;
     }

@@ -70,7 +70,7 @@ void trace_gather_rays(const World& world, const Mesh& mesh, const std::vector<g
             if (hit.element == no_index) continue;
             const std::size_t ray = std::size_t(i) * rays_per_pass + k;
             const std::uint32_t bits = hash(key, static_cast<std::uint32_t>(ray));
-            const Located indirect = locate_indirect(mesh, hit.element, hit.b1, hit.b2);
+            const Located indirect = locate_on_level(mesh, mesh.indirect_vertex_count, hit.element, hit.b1, hit.b2);
             const std::uint32_t end = pick_vertex(indirect.vertices, indirect.weights, buried, unit_float(bits));
             if (end != no_index) out.ends[ray] = receivers.of_vertex[end];
             const Located fine = locate(mesh, hit.element, hit.b1, hit.b2);

@@ -26,7 +26,7 @@ IndirectRefinement::IndirectRefinement(const World& world, Mesh& mesh, const Dir
     : world_(world)
     , mesh_(mesh)
     , params_(params)
-    , bisection_(mesh)
+    , edges_(mesh)
     , buried_(std::move(buried))
     , distance_(std::move(distance))
     , origins_(ray_origins(mesh, world.epsilon())) {
@@ -71,85 +71,44 @@ IndirectRefinement::Seen IndirectRefinement::gather(glm::vec3 origin, glm::vec3 
 bool IndirectRefinement::is_close(std::uint32_t a, std::uint32_t b) const {
     if (buried_[a] && buried_[b]) return false;
     if (buried_[a] || buried_[b]) return true;
-    const float reach = close_edge * std::min(distance_[a], distance_[b]);
-    return bisection_.edge_length(a, b) > reach * reach;
+    return glm::distance(mesh_.vertices[a].position, mesh_.vertices[b].position) >
+           close_edge * std::min(distance_[a], distance_[b]);
 }
 
-// The edges of this level's leaves that may be bent, and the vertices whose light has to be known for them.
-void IndirectRefinement::collect_edges() {
-    edges_.clear();
+// The edges that may be bent, and the vertices whose light has to be known for them.
+void IndirectRefinement::begin_level() {
+    edges_.collect(edges_.begun() ? params_.smallest_edge : params_.smallest_element,
+                   [this](std::uint32_t a, std::uint32_t b) { return is_close(a, b); });
     corners_.clear();
-    edge_slot_.clear();
-    open_.clear();
     cursor_ = 0;
-    const float smallest = next_node_ == 0 ? params_.smallest_element : params_.smallest_edge;
-    for (; next_node_ < mesh_.nodes.size(); ++next_node_)
-        if (mesh_.nodes[next_node_].children == no_index) open_.push_back(next_node_);
     std::vector<std::uint8_t> wanted(mesh_.vertices.size(), 0);
-    for (const std::uint32_t n : open_) {
-        const glm::uvec3 v = mesh_.nodes[n].vertices;
-        const int longest = bisection_.longest_edge(n);
-        if (bisection_.edge_length(v[longest], v[(longest + 1) % 3]) < smallest * smallest) continue;
-        const glm::vec3 centre =
-            (mesh_.vertices[v.x].position + mesh_.vertices[v.y].position + mesh_.vertices[v.z].position) / 3.0f;
-        for (int k = 0; k < 3; ++k) {
-            const std::uint32_t a = v[k], b = v[(k + 1) % 3];
-            const std::uint64_t key = Bisection::edge_key(a, b);
-            if (straight_.contains(key) || !is_close(a, b)) continue;
-            const auto [where, fresh] = edge_slot_.try_emplace(key, static_cast<std::uint32_t>(edges_.size()));
-            if (fresh) edges_.push_back({std::min(a, b), std::max(a, b), glm::vec3(0), 0});
-            edges_[where->second].inward += centre;
-            edges_[where->second].elements += 1;
-            for (const std::uint32_t end : {a, b})
-                if (light_[end] < 0 && !buried_[end] && !wanted[end]) wanted[end] = 1, corners_.push_back(end);
-        }
-    }
-    seen_.assign(edges_.size() + corners_.size(), {});
+    for (const EdgeRefinement::Edge& edge : edges_.edges())
+        for (const std::uint32_t end : {edge.a, edge.b})
+            if (light_[end] < 0 && !buried_[end] && !wanted[end]) wanted[end] = 1, corners_.push_back(end);
+    seen_.assign(edges_.edges().size() + corners_.size(), {});
 }
 
 void IndirectRefinement::split_bent() {
-    for (std::size_t c = 0; c < corners_.size(); ++c) light_[corners_[c]] = seen_[edges_.size() + c].light;
-    std::vector<float> bent(edges_.size(), 0);
-    for (std::size_t e = 0; e < edges_.size(); ++e) {
-        const Middle& edge = edges_[e];
+    const std::vector<EdgeRefinement::Edge>& edges = edges_.edges();
+    for (std::size_t c = 0; c < corners_.size(); ++c) light_[corners_[c]] = seen_[edges.size() + c].light;
+    std::vector<float> bent(edges.size(), 0);
+    for (std::size_t e = 0; e < edges.size(); ++e) {
         float light = 0, direct = 0, ends = 0;
-        for (const std::uint32_t v : {edge.a, edge.b})
+        for (const std::uint32_t v : {edges[e].a, edges[e].b})
             if (!buried_[v]) light += light_[v], direct += direct_[v], ends += 1;
         const float guess = light / ends, here = seen_[e].light;
         const float misfit = std::abs(here - guess) / std::max(floor_, here + direct / ends);
-        if (misfit > params_.tolerance && !seen_[e].buried)
-            bent[e] = misfit;
-        else
-            straight_.emplace(Bisection::edge_key(edge.a, edge.b), 1);
+        if (misfit > params_.tolerance && !seen_[e].buried) bent[e] = misfit;
     }
     const std::uint32_t before = static_cast<std::uint32_t>(mesh_.vertices.size());
-    // Where there are more than may be added, the largest misfits by length come first.
-    std::vector<std::pair<float, std::uint32_t>> wanted;
-    for (const std::uint32_t n : open_) {
-        const glm::uvec3 v = mesh_.nodes[n].vertices;
-        float worst = 0;
-        for (int k = 0; k < 3; ++k) {
-            const auto slot = edge_slot_.find(Bisection::edge_key(v[k], v[(k + 1) % 3]));
-            if (slot != edge_slot_.end()) worst = std::max(worst, bent[slot->second]);
-        }
-        const int longest = bisection_.longest_edge(n);
-        if (worst > 0) wanted.emplace_back(worst * bisection_.edge_length(v[longest], v[(longest + 1) % 3]), n);
-    }
-    std::sort(wanted.begin(), wanted.end(), [](const auto& a, const auto& b) {
-        return a.first != b.first ? a.first > b.first : a.second < b.second;
-    });
-    for (const auto& [misfit, n] : wanted) {
-        if (mesh_.vertices.size() >= params_.most_vertices) break;
-        if (mesh_.nodes[n].children == no_index) bisection_.split(n);
-    }
+    edges_.split(bent, params_.most_vertices);
     const std::uint32_t after = static_cast<std::uint32_t>(mesh_.vertices.size());
-    list_leaves(mesh_);
     origins_ = ray_origins(mesh_, world_.epsilon());
     std::vector<std::uint32_t> unseen; // made for conformity
     for (std::uint32_t v = before; v < after; ++v) {
         const auto& parents = mesh_.vertices[v].parents;
-        const auto slot = edge_slot_.find(Bisection::edge_key(parents[0], parents[1]));
-        const Seen seen = slot != edge_slot_.end() ? seen_[slot->second] : Seen{};
+        const std::uint32_t looked_at = edges_.edge_of(v);
+        const Seen seen = looked_at != no_index ? seen_[looked_at] : Seen{};
         direct_.push_back(0.5f * (direct_[parents[0]] + direct_[parents[1]]));
         light_.push_back(seen.light);
         distance_.push_back(seen.distance);
@@ -167,24 +126,20 @@ void IndirectRefinement::split_bent() {
 bool IndirectRefinement::step(const std::atomic<bool>& cancel) {
     if (done_) return true;
     if (!level_begun_) {
-        collect_edges();
+        begin_level();
         level_begun_ = true;
     }
     const float epsilon = world_.epsilon();
+    const std::vector<EdgeRefinement::Edge>& edges = edges_.edges();
     const auto look = [&](std::uint32_t first, std::uint32_t last) {
         for (std::uint32_t i = first; i < last; ++i) {
-            if (i >= edges_.size()) {
-                const std::uint32_t v = corners_[i - edges_.size()];
+            if (i < edges.size()) {
+                const EdgeRefinement::Place middle = edges_.middle(edges[i], epsilon);
+                seen_[i] = gather(middle.origin, middle.normal);
+            } else {
+                const std::uint32_t v = corners_[i - edges.size()];
                 seen_[i] = gather(origins_[v], mesh_.vertices[v].normal);
-                continue;
             }
-            const Middle& edge = edges_[i];
-            const MeshVertex &a = mesh_.vertices[edge.a], &b = mesh_.vertices[edge.b];
-            const glm::vec3 sum = a.normal + b.normal;
-            const glm::vec3 normal = glm::dot(sum, sum) > 1e-12f ? glm::normalize(sum) : a.normal;
-            seen_[i] = gather(
-                ray_origin(0.5f * (a.position + b.position), normal, edge.inward / float(edge.elements), epsilon),
-                normal);
         }
     };
     if (!run_slice(cursor_, static_cast<std::uint32_t>(seen_.size()), 16, cancel, look)) return false;

@@ -9,11 +9,10 @@
 
 #include <atomic>
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
-#include "core/transport/bisection.h"
 #include "core/transport/direct_transport.h"
+#include "core/transport/edge_refinement.h"
 #include "core/transport/mesh.h"
 #include "core/transport/world.h"
 
@@ -42,24 +41,19 @@ public:
     std::uint64_t rays() const { return rays_.load(); }
 
 private:
-    struct Middle {
-        std::uint32_t a, b;
-        glm::vec3 inward{0};
-        int elements = 0;
-    };
     struct Seen {
         float light = -1, distance = 0; // equal-flux irradiance, < 0: not gathered yet; m, harmonic mean
         bool buried = false;
     };
     Seen gather(glm::vec3 origin, glm::vec3 normal) const;
     bool is_close(std::uint32_t a, std::uint32_t b) const;
-    void collect_edges();
+    void begin_level();
     void split_bent();
 
     const World& world_;
     Mesh& mesh_;
     const IndirectParams params_;
-    Bisection bisection_;
+    EdgeRefinement edges_;
     std::vector<float> radiosity_; // grey, at coarse vertices
     std::vector<float> direct_;    // equal-flux, at all vertices
     float floor_ = 0;              // darker than this a relative error is not seen
@@ -68,13 +62,9 @@ private:
     std::vector<float> light_; // < 0: not gathered
     std::vector<glm::vec3> origins_;
 
-    std::vector<std::uint32_t> open_;    // leaves of this level
-    std::vector<Middle> edges_;          // whose middles are looked at,
-    std::vector<std::uint32_t> corners_; // and the vertices that this asks for
+    std::vector<std::uint32_t> corners_; // vertices that the edges of this level ask for
     std::vector<Seen> seen_;             // of the edges, then of the corners
-    std::unordered_map<std::uint64_t, std::uint32_t> edge_slot_;
-    std::unordered_map<std::uint64_t, std::uint8_t> straight_; // looked at before
-    std::uint32_t cursor_ = 0, next_node_ = 0;
+    std::uint32_t cursor_ = 0;
     bool level_begun_ = false, done_ = false;
     mutable std::atomic<std::uint64_t> rays_{0};
 };

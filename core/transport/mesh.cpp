@@ -268,8 +268,11 @@ Located locate(const Mesh& mesh, std::uint32_t coarse_element, float b1, float b
     return descend(mesh, coarse_element, b1, b2, no_index);
 }
 
-Located locate_indirect(const Mesh& mesh, std::uint32_t coarse_element, float b1, float b2) {
-    return descend(mesh, coarse_element, b1, b2, mesh.indirect_node_count);
+Located locate_on_level(const Mesh& mesh, std::uint32_t vertices, std::uint32_t coarse_element, float b1, float b2) {
+    const std::uint32_t nodes = vertices == mesh.vertices.size()         ? no_index
+                                : vertices == mesh.indirect_vertex_count ? mesh.indirect_node_count
+                                                                         : mesh.coarse_element_count;
+    return descend(mesh, coarse_element, b1, b2, nodes);
 }
 
 std::vector<glm::uvec3> elements_of_level(const Mesh& mesh, std::uint32_t vertices) {

@@ -98,8 +98,8 @@ struct Located {
     glm::vec3 weights;
 };
 Located locate(const Mesh& mesh, std::uint32_t coarse_element, float b1, float b2);
-// The same on the level of indirect light.
-Located locate_indirect(const Mesh& mesh, std::uint32_t coarse_element, float b1, float b2);
+// The same on the level that has so many vertices: the coarse one, that of indirect light, or that of the leaves.
+Located locate_on_level(const Mesh& mesh, std::uint32_t vertices, std::uint32_t coarse_element, float b1, float b2);
 
 // The elements of the level that has so many vertices: the coarse one or that of indirect light.
 std::vector<glm::uvec3> elements_of_level(const Mesh& mesh, std::uint32_t vertices);

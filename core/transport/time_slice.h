@@ -1,4 +1,4 @@
-// A parallel loop that can be left and taken up again: long stages stay small steps.
+// Loops that can be left and taken up again: long stages stay small steps.
 #pragma once
 
 #include <algorithm>
@@ -12,6 +12,26 @@
 namespace lueur {
 
 inline constexpr double step_seconds = 0.005;
+
+// For loops that are not parallel: whether the step's time is over, or it is cancelled. Looks at the clock every so
+// many calls.
+class TimeSlice {
+public:
+    explicit TimeSlice(const std::atomic<bool>& cancel, std::uint32_t calls_a_look = 1)
+        : cancel_(cancel)
+        , calls_a_look_(calls_a_look) {}
+    bool over() {
+        if (++calls_ % calls_a_look_ != 0) return false;
+        return cancel_.load(std::memory_order_relaxed) ||
+               std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count() > step_seconds;
+    }
+
+private:
+    const std::atomic<bool>& cancel_;
+    const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    const std::uint32_t calls_a_look_;
+    std::uint32_t calls_ = 0;
+};
 
 // Calls f(first, last) for blocks of [cursor, end) in parallel until the end, `step_seconds` are over, or `cancel` is
 // set; moves the cursor past what is done. What is done does not depend on the time. True at the end.

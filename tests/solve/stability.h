@@ -34,6 +34,7 @@ inline constexpr SolverChoice every_solver[] = {
     {"hierarchical", SolverKind::hierarchical, RefinementOracle::error},
     {"reference", SolverKind::reference},
 };
+inline constexpr SolverChoice matrix_solvers[] = {every_solver[2], every_solver[3], every_solver[4]};
 inline std::string name_of(const ::testing::TestParamInfo<SolverChoice>& info) {
     return info.param.name;
 }

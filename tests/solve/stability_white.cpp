@@ -48,6 +48,9 @@ double opposed_squares(double a, double d) {
 class StabilityWhite : public ::testing::TestWithParam<SolverChoice> {};
 INSTANTIATE_TEST_SUITE_P(Solvers, StabilityWhite, ::testing::ValuesIn(every_solver), test::name_of);
 
+class StabilityMatrix : public ::testing::TestWithParam<SolverChoice> {};
+INSTANTIATE_TEST_SUITE_P(Solvers, StabilityMatrix, ::testing::ValuesIn(test::matrix_solvers), test::name_of);
+
 // A closed room of one paint: what is emitted is what is absorbed, Phi = (1 - rho) sum A H.
 TEST_P(StabilityWhite, BoxOfOnePaint) {
     const SolverChoice choice = GetParam();
@@ -125,11 +128,8 @@ TEST_P(StabilityWhite, WallsAMillimetreApart) {
 
 // Point-to-disk from one point beside a shared edge, or a hemicube of few pixels: with rho 0.999 no sweep would
 // converge on rows above 1.
-TEST_P(StabilityWhite, RowsOfPoorFormFactors) {
+TEST_P(StabilityMatrix, RowsOfPoorFormFactors) {
     const SolverChoice choice = GetParam();
-    if (choice.kind != SolverKind::jacobi && choice.kind != SolverKind::gauss_seidel &&
-        choice.kind != SolverKind::overshooting)
-        GTEST_SKIP() << "keeps no matrix";
     for (const FormFactorMethod method : {FormFactorMethod::point_to_disk, FormFactorMethod::hemicube}) {
         constexpr double rho = 0.999;
         Scene scene = coarse(white_box(rho), choice, 1.2);

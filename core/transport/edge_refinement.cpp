@@ -1,0 +1,76 @@
+#include "core/transport/edge_refinement.h"
+
+#include <algorithm>
+
+namespace lueur {
+
+EdgeRefinement::EdgeRefinement(Mesh& mesh)
+    : mesh_(mesh)
+    , bisection_(mesh) {}
+
+void EdgeRefinement::follow_mesh() {
+    bisection_.emplace(mesh_);
+}
+
+void EdgeRefinement::collect(float smallest, const std::function<bool(std::uint32_t a, std::uint32_t b)>& wanted) {
+    edges_.clear();
+    edge_slot_.clear();
+    open_.clear();
+    for (; next_node_ < mesh_.nodes.size(); ++next_node_)
+        if (mesh_.nodes[next_node_].children == no_index) open_.push_back(next_node_);
+    for (const std::uint32_t n : open_) {
+        const glm::uvec3 v = mesh_.nodes[n].vertices;
+        const int longest = bisection_->longest_edge(n);
+        if (bisection_->edge_length(v[longest], v[(longest + 1) % 3]) < smallest * smallest) continue;
+        const glm::vec3 centre =
+            (mesh_.vertices[v.x].position + mesh_.vertices[v.y].position + mesh_.vertices[v.z].position) / 3.0f;
+        for (int k = 0; k < 3; ++k) {
+            const std::uint32_t a = v[k], b = v[(k + 1) % 3];
+            const std::uint64_t key = Bisection::edge_key(a, b);
+            if (straight_.contains(key) || !wanted(a, b)) continue;
+            const auto [where, fresh] = edge_slot_.try_emplace(key, static_cast<std::uint32_t>(edges_.size()));
+            if (fresh) edges_.push_back({std::min(a, b), std::max(a, b), glm::vec3(0), 0});
+            edges_[where->second].inward += centre;
+            edges_[where->second].elements += 1;
+        }
+    }
+}
+
+EdgeRefinement::Place EdgeRefinement::middle(const Edge& edge, float epsilon) const {
+    const MeshVertex &a = mesh_.vertices[edge.a], &b = mesh_.vertices[edge.b];
+    const glm::vec3 sum = a.normal + b.normal;
+    const glm::vec3 normal = glm::dot(sum, sum) > 1e-12f ? glm::normalize(sum) : a.normal;
+    return {ray_origin(0.5f * (a.position + b.position), normal, edge.inward / float(edge.elements), epsilon), normal};
+}
+
+void EdgeRefinement::split(std::span<const float> bent, std::uint32_t most_vertices) {
+    for (std::size_t e = 0; e < edges_.size(); ++e)
+        if (bent[e] == 0) straight_.emplace(Bisection::edge_key(edges_[e].a, edges_[e].b), 1);
+    std::vector<std::pair<float, std::uint32_t>> wanted;
+    for (const std::uint32_t n : open_) {
+        const glm::uvec3 v = mesh_.nodes[n].vertices;
+        float worst = 0;
+        for (int k = 0; k < 3; ++k) {
+            const auto slot = edge_slot_.find(Bisection::edge_key(v[k], v[(k + 1) % 3]));
+            if (slot != edge_slot_.end()) worst = std::max(worst, bent[slot->second]);
+        }
+        const int longest = bisection_->longest_edge(n);
+        if (worst > 0) wanted.emplace_back(worst * bisection_->edge_length(v[longest], v[(longest + 1) % 3]), n);
+    }
+    std::sort(wanted.begin(), wanted.end(), [](const auto& a, const auto& b) {
+        return a.first != b.first ? a.first > b.first : a.second < b.second;
+    });
+    for (const auto& [misfit, n] : wanted) {
+        if (mesh_.vertices.size() >= most_vertices) break;
+        if (mesh_.nodes[n].children == no_index) bisection_->split(n);
+    }
+    list_leaves(mesh_);
+}
+
+std::uint32_t EdgeRefinement::edge_of(std::uint32_t vertex) const {
+    const auto& parents = mesh_.vertices[vertex].parents;
+    const auto slot = edge_slot_.find(Bisection::edge_key(parents[0], parents[1]));
+    return slot != edge_slot_.end() ? slot->second : no_index;
+}
+
+} // namespace lueur

@@ -1,0 +1,56 @@
+// Level by level: the edges of a mesh's leaves at whose middles something is looked at, and the leaves that are split
+// because it was not what the ends had promised. What is looked at is the caller's.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "core/transport/bisection.h"
+#include "core/transport/mesh.h"
+
+namespace lueur {
+
+class EdgeRefinement {
+public:
+    explicit EdgeRefinement(Mesh& mesh); // must outlive it
+
+    struct Edge {
+        std::uint32_t a, b;
+        glm::vec3 inward{0}; // sum of the middles of the elements at it,
+        int elements = 0;    // so many
+    };
+    struct Place {
+        glm::vec3 origin, normal; // off the surface, where rays start
+    };
+
+    void follow_mesh(); // it was cut by someone else
+    bool begun() const { return next_node_ > 0; }
+
+    // A new level: the edges of the leaves made since the last one, but of leaves whose longest edge is shorter than
+    // `smallest`, m, those that were straight before, and those that are not `wanted`.
+    void collect(float smallest, const std::function<bool(std::uint32_t a, std::uint32_t b)>& wanted);
+    const std::vector<Edge>& edges() const { return edges_; }
+    Place middle(const Edge& edge, float epsilon) const;
+
+    // bent: of each edge, by how much its middle is off; 0: straight. Splits the leaves at bent edges (and neighbours,
+    // as conformity asks), the largest misfits by area first, until there are `most_vertices`, and lists the leaves
+    // anew.
+    void split(std::span<const float> bent, std::uint32_t most_vertices);
+    // The edge of this level whose middle a new vertex is; no_index: it was made for conformity.
+    std::uint32_t edge_of(std::uint32_t vertex) const;
+
+private:
+    Mesh& mesh_;
+    std::optional<Bisection> bisection_;
+    std::vector<Edge> edges_;
+    std::unordered_map<std::uint64_t, std::uint32_t> edge_slot_;
+    std::unordered_map<std::uint64_t, std::uint8_t> straight_; // edges of earlier levels whose middle was right
+    std::vector<std::uint32_t> open_;                          // leaves of this level
+    std::uint32_t next_node_ = 0;
+};
+
+} // namespace lueur
