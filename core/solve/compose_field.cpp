@@ -123,18 +123,9 @@ ChannelField irradiance_channels(const Solution::State& s, std::vector<float>& u
             unshot[v] = 0.5f * (unshot[p[0]] + unshot[p[1]]);
         }
     }
-    const std::size_t emitters = s.direct->emitter_count();
-    std::vector<std::vector<float>> exitance(emitters);
-    for (std::size_t l = 0; l < emitters; ++l)
-        if (s.luminaire_is_lit(l)) exitance[l].assign(s.luminaire_exitance[l].begin(), s.luminaire_exitance[l].end());
-    tbb::parallel_for(Range(0, count, 512), [&](const Range& range) {
-        for (std::uint32_t v = range.begin(); v < range.end(); ++v) {
-            const float* d = s.direct->at_vertex(v);
-            for (std::size_t l = 0; l < emitters; ++l)
-                if (d[l] != 0)
-                    for (std::size_t k = 0; k < exitance[l].size(); ++k) h[v][k] += d[l] * exitance[l][k];
-        }
-    });
+    std::vector<std::uint8_t> shown;
+    for (std::size_t l = 0; l < s.direct->emitter_count(); ++l) shown.push_back(s.luminaire_is_lit(l));
+    read_direct(s, shown, h);
     fill_buried(mesh.elements, s.all_buried(), h);
     return h;
 }
@@ -154,6 +145,21 @@ std::vector<float> colour_differences(const Field& field) {
 }
 
 } // namespace
+
+void read_direct(const Solution::State& s, const std::vector<std::uint8_t>& shown, ChannelField& irradiance) {
+    ChannelField exitance(static_cast<std::uint32_t>(shown.size()), s.channels());
+    for (std::uint32_t l = 0; l < exitance.count; ++l)
+        if (shown[l]) std::copy(s.luminaire_exitance[l].begin(), s.luminaire_exitance[l].end(), exitance[l]);
+    ChannelField at_rows(s.direct->row_count(), s.channels());
+    tbb::parallel_for(Range(0, at_rows.count, 256), [&](const Range& range) {
+        for (std::uint32_t r = range.begin(); r < range.end(); ++r)
+            for (const DirectShare& share : s.direct->rows()[r])
+                for (int k = 0; k < at_rows.stride; ++k) at_rows[r][k] += share.factor * exitance[share.emitter][k];
+    });
+    ChannelField direct(static_cast<std::uint32_t>(s.mesh.vertices.size()), s.channels());
+    s.direct->read_rows(at_rows.values, static_cast<std::size_t>(at_rows.stride), direct.values);
+    for (std::size_t i = 0; i < direct.values.size(); ++i) irradiance.values[i] += direct.values[i];
+}
 
 std::shared_ptr<const Field> compose_field(const Solution::State& s) {
     auto field = std::make_shared<Field>();
@@ -210,13 +216,14 @@ std::vector<double> irradiance_at(const Solution::State& s, std::uint32_t elemen
     float sum = 0;
     for (int k = 0; k < 3; ++k)
         if (!s.direct->buried()[at_point.vertices[k]]) sum += at_point.weights[k];
-    for (std::size_t l = 0; l < s.direct->emitter_count(); ++l) {
-        if (!s.luminaire_is_lit(l)) continue;
-        double d = 0;
-        for (int k = 0; k < 3; ++k)
-            if (!s.direct->buried()[at_point.vertices[k]] && sum > 0)
-                d += double(at_point.weights[k] / sum) * s.direct->at_vertex(at_point.vertices[k])[l];
-        for (int c = 0; c < channels; ++c) h[c] += d * s.luminaire_exitance[l][c];
+    static thread_local std::vector<float> factors;
+    factors.assign(s.direct->emitter_count(), 0.0f);
+    for (int k = 0; k < 3; ++k)
+        if (!s.direct->buried()[at_point.vertices[k]] && sum > 0)
+            s.direct->add_factors(at_point.vertices[k], at_point.weights[k] / sum, factors);
+    for (std::size_t l = 0; l < factors.size(); ++l) {
+        if (factors[l] == 0 || !s.luminaire_is_lit(l)) continue;
+        for (int c = 0; c < channels; ++c) h[c] += double(factors[l]) * s.luminaire_exitance[l][c];
     }
     return h;
 }

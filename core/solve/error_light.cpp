@@ -30,25 +30,33 @@ ErrorLight error_light(const Solution::State& s, const ErrorMesh& mesh, const Fi
     for (std::vector<float>* part :
          {&light.total, &light.direct, &light.indirect, &light.reflected, &light.direct_variance, &light.unlit})
         part->resize(count);
+    // Direct light, its variance and what is not shown of it: three numbers a row.
+    std::vector<float> at_rows(3 * std::size_t(s.direct->row_count())), read(3 * count);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, s.direct->row_count(), 256), [&](const auto& range) {
+        for (std::size_t r = range.begin(); r < range.end(); ++r) {
+            double direct = 0, variance = 0, unlit = 0;
+            for (const DirectShare& share : s.direct->rows()[r]) {
+                direct += share.factor * light.exitance[share.emitter];
+                const double deviation = share.deviation * light.exitance[share.emitter];
+                variance += deviation * deviation;
+                unlit += share.factor * hidden[share.emitter];
+            }
+            at_rows[3 * r] = static_cast<float>(direct);
+            at_rows[3 * r + 1] = static_cast<float>(variance);
+            at_rows[3 * r + 2] = static_cast<float>(unlit);
+        }
+    });
+    s.direct->read_rows(at_rows, 3, read);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1024),
                       [&](const tbb::blocked_range<std::size_t>& range) {
                           for (std::size_t v = range.begin(); v < range.end(); ++v) {
-                              const float* factor = s.direct->at_vertex(static_cast<std::uint32_t>(v));
-                              const float* deviations = s.direct->deviation_at_vertex(static_cast<std::uint32_t>(v));
-                              double direct = 0, variance = 0, unlit = 0;
-                              for (std::size_t l = 0; l < emitters; ++l) {
-                                  direct += factor[l] * light.exitance[l];
-                                  const double deviation = deviations[l] * light.exitance[l];
-                                  variance += deviation * deviation;
-                                  unlit += factor[l] * hidden[l];
-                              }
                               const float y = field.irradiance_xyz[v].y;
                               light.total[v] = y;
-                              light.direct[v] = static_cast<float>(direct);
+                              light.direct[v] = read[3 * v];
                               light.indirect[v] = y - light.direct[v];
                               light.reflected[v] = field.reflected_xyz[v].y * std::numbers::pi_v<float>;
-                              light.direct_variance[v] = static_cast<float>(variance);
-                              light.unlit[v] = static_cast<float>(unlit);
+                              light.direct_variance[v] = read[3 * v + 1];
+                              light.unlit[v] = read[3 * v + 2];
                           }
                       });
     double caught = 0, emitted = 0;

@@ -15,12 +15,13 @@ namespace {
 std::vector<float> direct_uncertainty(const Mesh& mesh, const DirectTransport& direct) {
     std::vector<float> uncertainty(mesh.vertices.size(), 0);
     double mean = 0;
-    for (std::uint32_t v = 0; v < uncertainty.size(); ++v)
-        for (std::size_t l = 0; l < direct.emitter_count(); ++l)
-            if (const float area = direct.emitters()[l].area; area > 0) {
-                uncertainty[v] += direct.deviation_at_vertex(v)[l] / area;
-                mean += double(direct.at_vertex(v)[l]) / area;
-            }
+    std::vector<float> at_rows(direct.row_count(), 0);
+    for (std::size_t r = 0; r < at_rows.size(); ++r)
+        for (const DirectShare& share : direct.rows()[r])
+            if (const float area = direct.emitters()[share.emitter].area; area > 0)
+                at_rows[r] += share.deviation / area;
+    direct.read_rows(at_rows, 1, uncertainty);
+    for (const float light : direct.equal_flux_light()) mean += double(light);
     mean /= std::max<double>(1, double(uncertainty.size()));
     for (float& u : uncertainty) u = mean > 0 ? static_cast<float>(u / mean) : 0;
     return uncertainty;

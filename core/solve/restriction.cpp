@@ -12,8 +12,7 @@ std::vector<float> restrict_direct(const Mesh& mesh, const DirectTransport& dire
         if (direct.buried()[v]) area[v] = 0;
     std::vector<float> sum(mesh.vertices.size() * emitters);
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
-        for (std::size_t l = 0; l < emitters; ++l)
-            sum[v * emitters + l] = area[v] * direct.at_vertex(static_cast<std::uint32_t>(v))[l];
+        direct.add_factors(static_cast<std::uint32_t>(v), area[v], std::span(sum).subspan(v * emitters, emitters));
     // Children give half of what they hold to each parent, latest first.
     for (std::size_t v = area.size(); v-- > mesh.coarse_vertex_count;) {
         for (const std::uint32_t parent : mesh.vertices[v].parents) {

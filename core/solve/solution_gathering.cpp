@@ -48,31 +48,16 @@ double unshot_flux_share(const State& s) {
 ChannelField reflected_direct(const State& s) {
     const std::uint32_t count = static_cast<std::uint32_t>(s.mesh.vertices.size());
     const int channels = s.channels();
-    const std::size_t emitters = s.direct->emitter_count();
     ChannelField b(count + 1, channels);
+    read_direct(s, std::vector<std::uint8_t>(s.luminaire_exitance.size(), 1), b);
     tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, count, 256),
                       [&](const tbb::blocked_range<std::uint32_t>& range) {
                           for (std::uint32_t v = range.begin(); v < range.end(); ++v) {
                               const auto& rho = s.material_rho[s.material_of(s.mesh.vertices[v].surface)];
-                              const float* d = s.direct->at_vertex(v);
-                              for (std::size_t l = 0; l < emitters; ++l) {
-                                  if (d[l] == 0) continue;
-                                  for (int c = 0; c < channels; ++c)
-                                      b[v][c] += d[l] * static_cast<float>(rho[c] * s.luminaire_exitance[l][c]);
-                              }
+                              for (int c = 0; c < channels; ++c) b[v][c] *= static_cast<float>(rho[c]);
                           }
                       });
     return b;
-}
-
-// Equal-flux direct irradiance at all vertices: what the ray budget looks at.
-std::vector<float> equal_flux_direct(const State& s) {
-    std::vector<float> direct(s.mesh.vertices.size(), 0);
-    for (std::size_t v = 0; v < direct.size(); ++v)
-        for (std::size_t l = 0; l < s.direct->emitter_count(); ++l)
-            if (s.direct->emitters()[l].area > 0)
-                direct[v] += s.direct->at_vertex(static_cast<std::uint32_t>(v))[l] / s.direct->emitters()[l].area;
-    return direct;
 }
 
 // Of all the light that arrives in the end, the share that is still missing: each unit of the residual is reflected on,
@@ -90,28 +75,25 @@ double gathering_missing_share(const State& s, const std::vector<float>& areas, 
 void update_error(State& s) {
     const std::uint32_t receivers = s.receivers.count();
     ScalarRadiosity radiosity{std::vector<float>(receivers), std::vector<float>(s.mesh.vertices.size())};
-    // Direct irradiance and its reflection: luminous exitance of each luminaire, and its luminous part on each paint.
-    std::vector<double> exitance;
-    std::vector<std::vector<double>> reflected(s.material_rho.size());
-    for (const auto& e : s.luminaire_exitance) {
-        exitance.push_back(xyz_from_channels(*s.wavelengths, std::span<const double>(e)).y);
-        for (std::size_t m = 0; m < s.material_rho.size(); ++m) {
-            double y = 0;
-            for (std::size_t c = 0; c < s.wavelengths->xyz_weight.size(); ++c)
-                y += s.wavelengths->xyz_weight[c].y * s.material_rho[m][c] * e[c];
-            reflected[m].push_back(y);
-        }
-    }
-    std::vector<float> direct(receivers, 0);
-    for (std::uint32_t i = 0; i < receivers; ++i) {
+    for (std::uint32_t i = 0; i < receivers; ++i)
         radiosity.indirect[i] = static_cast<float>(luminous(s, s.system.radiosity()[i]));
-        for (std::size_t l = 0; l < exitance.size(); ++l)
-            direct[i] += static_cast<float>(s.direct->at_vertex(s.receivers.vertex[i])[l] * exitance[l]);
-    }
-    for (std::uint32_t v = 0; v < s.mesh.vertices.size(); ++v) {
-        const float* d = s.direct->at_vertex(v);
-        const auto& on_paint = reflected[s.material_of(s.mesh.vertices[v].surface)];
-        for (std::size_t l = 0; l < exitance.size(); ++l) radiosity.direct[v] += static_cast<float>(d[l] * on_paint[l]);
+    // Direct irradiance and its reflection, the luminous part of both.
+    std::vector<float> direct(receivers, 0);
+    {
+        ChannelField h(static_cast<std::uint32_t>(s.mesh.vertices.size()), s.channels());
+        read_direct(s, std::vector<std::uint8_t>(s.luminaire_exitance.size(), 1), h);
+        std::vector<std::vector<float>> reflected; // of each paint: what a channel's irradiance gives
+        for (const std::vector<double>& rho : s.material_rho) {
+            reflected.emplace_back();
+            for (std::size_t c = 0; c < s.wavelengths->xyz_weight.size(); ++c)
+                reflected.back().push_back(static_cast<float>(s.wavelengths->xyz_weight[c].y * rho[c]));
+        }
+        for (std::uint32_t i = 0; i < receivers; ++i)
+            direct[i] = static_cast<float>(luminous(s, h[s.receivers.vertex[i]]));
+        for (std::uint32_t v = 0; v < h.count; ++v) {
+            const std::vector<float>& on_paint = reflected[s.material_of(s.mesh.vertices[v].surface)];
+            for (std::size_t c = 0; c < on_paint.size(); ++c) radiosity.direct[v] += on_paint[c] * h[v][c];
+        }
     }
 
     const std::vector<float> variance = ray_variances(s.passes, radiosity);
@@ -160,11 +142,21 @@ bool has_no_finite_solution(const State& s) {
 }
 
 void refresh_indirect(State& s) {
-    for (std::uint32_t v = 0; v < s.indirect_irradiance.count; ++v) {
-        const std::uint32_t i = s.receivers.of_vertex[v];
-        for (int c = 0; c < s.channels(); ++c)
-            s.indirect_irradiance[v][c] = s.gathered_direct[i][c] + s.system.gathered()[i][c];
-    }
+    const LightSamples& samples = s.direct->samples();
+    const int channels = s.channels();
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, s.indirect_irradiance.count, 512), [&](const auto& range) {
+        const auto add = [&](std::uint32_t v, std::uint32_t i, float weight) {
+            for (int c = 0; c < channels; ++c)
+                s.indirect_irradiance[v][c] += weight * (s.gathered_direct[i][c] + s.system.gathered()[i][c]);
+        };
+        for (std::uint32_t v = range.begin(); v < range.end(); ++v) {
+            std::fill_n(s.indirect_irradiance[v], channels, 0.0f);
+            if (samples.is_sample(v))
+                add(v, s.receivers.of_vertex[v], 1);
+            else
+                for (const LightSamples::Reading& r : samples.readings_of(v)) add(v, r.sample, r.weight);
+        }
+    });
 }
 
 // New sources, paints or rays: one reflection of direct light is gathered anew, then the system holds them.
@@ -194,7 +186,7 @@ void plan_passes(State& s) {
     const std::uint32_t now = static_cast<std::uint32_t>(s.passes.size());
     if (s.rays_planned || now < s.passes_wanted) return;
     const double target = ray_share * s.scene->solve.target_error;
-    const double error = grey_ray_error(s.passes, s.receivers.vertex, equal_flux_direct(s), receiver_areas(s));
+    const double error = grey_ray_error(s.passes, s.receivers.vertex, s.direct->equal_flux_light(), receiver_areas(s));
     if (error <= target || now >= most_passes(s)) {
         s.rays_planned = true;
         return;

@@ -52,8 +52,7 @@ void direct_at(const State& s, glm::vec3 position, glm::vec3 normal, float* fact
             if (!s.direct->buried()[at.vertices[k]]) sum += at.weights[k];
         for (int k = 0; k < 3; ++k) {
             if (s.direct->buried()[at.vertices[k]] || !(sum > 0)) continue;
-            const float* d = s.direct->at_vertex(at.vertices[k]);
-            for (std::size_t l = 0; l < emitters; ++l) factors[l] += at.weights[k] / sum * d[l];
+            s.direct->add_factors(at.vertices[k], at.weights[k] / sum, {factors, emitters});
         }
         if (sum > 0) return;
     }

@@ -134,6 +134,10 @@ struct Solution::State {
 
 std::shared_ptr<const Field> compose_field(const Solution::State& state);
 
+// Adds the direct irradiance of the luminaires in `shown` (one a luminaire) at all vertices, per channel. `irradiance`
+// has at least as many rows.
+void read_direct(const Solution::State& state, const std::vector<std::uint8_t>& shown, ChannelField& irradiance);
+
 // Reflected radiosity per channel at a point of a coarse element: rho (H_direct + H_indirect). `radiosity` has one
 // entry a channel, or stops before the trichromatic ones.
 void add_reflected_radiosity(const Solution::State& state, std::uint32_t element, float b1, float b2, double factor,

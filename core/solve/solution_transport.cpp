@@ -9,7 +9,8 @@ namespace {
 
 constexpr std::uint32_t fine_vertices = 20000; // that direct light may add: the window has to draw them
 constexpr double near_share = 0.01;            // of the coarse element size: what is nearer, elements do not resolve
-constexpr double receiver_cell = 0.3;          // of the coarse element size
+constexpr double sample_cell = 0.3;            // of the coarse element size: what lies closer shares its light
+constexpr std::uint32_t most_samples = 80000;
 
 using State = Solution::State;
 
@@ -19,7 +20,7 @@ bool refine_indirect(State& s, const std::atomic<bool>& cancel) {
     if (!s.indirect_refinement)
         s.indirect_refinement = std::make_unique<IndirectRefinement>(
             *s.world, s.mesh, *s.direct, s.buried, s.around.distance,
-            IndirectParams{.smallest_element = static_cast<float>(receiver_cell * s.element_size),
+            IndirectParams{.smallest_element = s.direct->samples().cell,
                            .smallest_edge = static_cast<float>(s.element_size / 8),
                            .most_vertices = s.mesh.coarse_vertex_count + 1000 + s.receivers.count() / 8});
     const std::uint64_t rays = s.indirect_refinement->rays();
@@ -65,10 +66,12 @@ void step_mesh(State& s) {
     s.around.back = s.around.near = s.around.lit;
     s.around.distance.assign(s.mesh.coarse_vertex_count, 0);
     s.around.near_distance = static_cast<float>(near_share * s.element_size);
+    LightSamples samples = make_light_samples(*s.scene, s.mesh, *s.world, s.origins,
+                                              static_cast<float>(sample_cell * s.element_size), most_samples);
     const DirectParams params{.smallest_edge = static_cast<float>(s.element_size / 8),
                               .element_size = static_cast<float>(s.element_size),
                               .most_vertices = s.mesh.coarse_vertex_count + fine_vertices};
-    s.direct = std::make_unique<DirectTransport>(*s.world, s.mesh, make_emitters(*s.scene), params);
+    s.direct = std::make_unique<DirectTransport>(*s.world, s.mesh, make_emitters(*s.scene), params, std::move(samples));
     s.coarse_area = s.indirect_area = vertex_areas(s.mesh);
     publish_mesh(s);
     s.cursor = 0;
@@ -87,14 +90,24 @@ void step_light(State& s, const std::atomic<bool>& cancel) {
 }
 
 void step_burial(State& s, const std::atomic<bool>& cancel) {
-    if (s.cursor < s.mesh.coarse_vertex_count &&
-        !run_slice(s.cursor, s.mesh.coarse_vertex_count, 64, cancel, [&](std::uint32_t first, std::uint32_t last) {
-            find_buried(*s.world, s.mesh, s.origins, first, last, s.buried, &s.around);
-        }))
-        return;
+    const LightSamples& samples = s.direct->samples();
+    if (s.cursor < samples.count()) {
+        if (!run_slice(s.cursor, samples.count(), 64, cancel, [&](std::uint32_t first, std::uint32_t last) {
+                for (std::uint32_t i = first; i < last; ++i)
+                    find_buried(*s.world, s.mesh, s.origins, samples.vertex[i], samples.vertex[i] + 1, s.buried,
+                                &s.around);
+            }))
+            return;
+        for (std::uint32_t v = 0; v < s.mesh.coarse_vertex_count; ++v) {
+            const std::uint32_t of = samples.vertex[samples.of_vertex[v]];
+            s.buried[v] = s.buried[of];
+            s.around.lit[v] = s.around.lit[of], s.around.back[v] = s.around.back[of];
+            s.around.near[v] = s.around.near[of], s.around.distance[v] = s.around.distance[of];
+        }
+    }
     if (!find_overlap(s.mesh, *s.world, s.buried, cancel, s.overlap)) return;
-    s.status.rays += std::uint64_t(s.mesh.coarse_vertex_count) * burial_rays + s.mesh.coarse_element_count;
-    s.receivers = make_receivers(*s.scene, s.mesh, s.buried, static_cast<float>(receiver_cell * s.element_size));
+    s.status.rays += std::uint64_t(samples.count()) * burial_rays + s.mesh.coarse_element_count;
+    s.receivers = receivers_of(samples, s.buried);
     s.status.matrix_patches = matrix_size(s.mesh, s.scene->solve.matrix_memory).patches;
     s.status.matrix_bytes = matrix_bytes(s.status.matrix_patches);
     s.status.receivers = s.receivers.count();

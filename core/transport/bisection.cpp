@@ -4,7 +4,9 @@ namespace lueur {
 
 Bisection::Bisection(Mesh& mesh)
     : mesh_(mesh) {
-    edge_leaves_.reserve(mesh.nodes.size() * 2);
+    std::size_t leaves = 0;
+    for (const MeshNode& node : mesh.nodes) leaves += node.children == no_index;
+    edge_leaves_.reserve(leaves * 2); // at most three halves, and what is split
     for (std::uint32_t n = 0; n < mesh.nodes.size(); ++n)
         if (mesh.nodes[n].children == no_index) attach(n);
 }
@@ -12,50 +14,44 @@ Bisection::Bisection(Mesh& mesh)
 void Bisection::attach(std::uint32_t node) {
     const glm::uvec3 v = mesh_.nodes[node].vertices;
     for (int k = 0; k < 3; ++k) {
-        auto& leaves =
-            edge_leaves_.try_emplace(edge_key(v[k], v[(k + 1) % 3]), std::array{no_index, no_index}).first->second;
-        (leaves[0] == no_index ? leaves[0] : leaves[1]) =
-            node; // a third leaf at an edge keeps its place with its first neighbour only
+        auto& leaves = edge_leaves_.at(edge_key(v[k], v[(k + 1) % 3]));
+        // A third leaf at an edge keeps its place with its first neighbour only.
+        (leaves[0] == no_index ? leaves[0] : leaves[1]) = node;
     }
 }
 
 void Bisection::detach(std::uint32_t node) {
     const glm::uvec3 v = mesh_.nodes[node].vertices;
     for (int k = 0; k < 3; ++k) {
-        const auto found = edge_leaves_.find(edge_key(v[k], v[(k + 1) % 3]));
-        if (found == edge_leaves_.end()) continue;
-        auto& leaves = found->second;
+        auto& leaves = edge_leaves_.at(edge_key(v[k], v[(k + 1) % 3]));
         if (leaves[0] == node)
             leaves[0] = leaves[1], leaves[1] = no_index;
         else if (leaves[1] == node)
             leaves[1] = no_index;
-        if (leaves[0] == no_index) edge_leaves_.erase(found);
     }
 }
 
 std::uint32_t Bisection::neighbour(std::uint32_t node, int edge) const {
     const glm::uvec3 v = mesh_.nodes[node].vertices;
-    const auto found = edge_leaves_.find(edge_key(v[edge], v[(edge + 1) % 3]));
-    if (found == edge_leaves_.end()) return no_index;
-    const auto& leaves = found->second;
+    const auto leaves = edge_leaves_.find(edge_key(v[edge], v[(edge + 1) % 3]));
     return leaves[0] == node ? leaves[1] : leaves[0];
 }
 
-float Bisection::edge_length(std::uint32_t a, std::uint32_t b) const {
+float Bisection::edge_length(const Mesh& mesh, std::uint32_t a, std::uint32_t b) {
     // In one order for both elements at the edge, so that they agree to the last bit.
-    const glm::vec3 d = mesh_.vertices[std::max(a, b)].position - mesh_.vertices[std::min(a, b)].position;
+    const glm::vec3 d = mesh.vertices[std::max(a, b)].position - mesh.vertices[std::min(a, b)].position;
     return glm::dot(d, d);
 }
 
-int Bisection::longest_edge(std::uint32_t node) const {
+int Bisection::longest_edge(const Mesh& mesh, std::uint32_t node) {
     // Equal lengths are told apart by vertex number: the order of edges is total, so chains of ever longer edges end.
-    const glm::uvec3 v = mesh_.nodes[node].vertices;
+    const glm::uvec3 v = mesh.nodes[node].vertices;
     int best = 0;
     float best_length = -1;
     std::uint64_t best_key = 0;
     for (int k = 0; k < 3; ++k) {
         const std::uint32_t a = v[k], b = v[(k + 1) % 3];
-        const float length = edge_length(a, b);
+        const float length = edge_length(mesh, a, b);
         const std::uint64_t key = edge_key(a, b);
         if (length > best_length || (length == best_length && key > best_key))
             best = k, best_length = length, best_key = key;

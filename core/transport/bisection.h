@@ -4,9 +4,9 @@
 #pragma once
 
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
+#include "core/transport/edge_table.h"
 #include "core/transport/mesh.h"
 
 namespace lueur {
@@ -21,8 +21,10 @@ public:
     static std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
         return a < b ? (std::uint64_t(a) << 32 | b) : (std::uint64_t(b) << 32 | a);
     }
-    int longest_edge(std::uint32_t node) const;
-    float edge_length(std::uint32_t a, std::uint32_t b) const;
+    int longest_edge(std::uint32_t node) const { return longest_edge(mesh_, node); }
+    float edge_length(std::uint32_t a, std::uint32_t b) const { return edge_length(mesh_, a, b); } // squared
+    static int longest_edge(const Mesh& mesh, std::uint32_t node);
+    static float edge_length(const Mesh& mesh, std::uint32_t a, std::uint32_t b);
 
 private:
     void bisect(std::uint32_t node, int edge, std::uint32_t midpoint);
@@ -31,7 +33,7 @@ private:
     std::uint32_t neighbour(std::uint32_t node, int edge) const;
 
     Mesh& mesh_;
-    std::unordered_map<std::uint64_t, std::array<std::uint32_t, 2>> edge_leaves_; // the one or two leaves at an edge
+    EdgeTable edge_leaves_;
 };
 
 // The list of leaves anew, after splitting.

@@ -1,7 +1,9 @@
 #include "core/transport/direct_transport.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "core/transport/gather_rows.h"
 #include "core/transport/sampling.h"
@@ -21,18 +23,30 @@ float unshadowed(const Emitter& emitter, glm::vec3 origin, glm::vec3 normal) {
 } // namespace
 
 DirectTransport::DirectTransport(const World& world, Mesh& mesh, std::vector<Emitter> emitters,
-                                 const DirectParams& params)
+                                 const DirectParams& params, LightSamples samples)
     : world_(world)
     , mesh_(mesh)
     , emitters_(std::move(emitters))
     , params_(params)
+    , samples_(std::move(samples))
     , edges_(mesh) {
     for (const Emitter& e : emitters_) weight_.push_back(e.area > 0 ? 1 / e.area : 0);
-    origins_ = ray_origins(mesh_, world_.epsilon());
-    factors_.assign(mesh_.vertices.size() * emitters_.size(), 0);
-    deviations_ = factors_;
-    area_ = vertex_areas(mesh_);
     buried_.assign(mesh_.vertices.size(), 0);
+    rows_.resize(mesh_.vertices.size() - sampled_vertices() + samples_.count());
+    follow_rows();
+}
+
+// After the mesh or all rows have changed.
+void DirectTransport::follow_rows() {
+    origins_ = ray_origins(mesh_, world_.epsilon());
+    const std::vector<float> area = vertex_areas(mesh_);
+    row_area_.assign(rows_.size(), 0);
+    for (std::uint32_t v = 0; v < area.size(); ++v)
+        row_area_[v < sampled_vertices() ? samples_.of_vertex[v] : row_of(v)] += area[v];
+    std::vector<float> at_rows;
+    for (const DirectRow& row : rows_) at_rows.push_back(equal_flux_light(row));
+    equal_flux_.resize(mesh_.vertices.size());
+    read_rows(at_rows, 1, equal_flux_);
 }
 
 // size: m, across what this light stands for.
@@ -55,64 +69,113 @@ void DirectTransport::light(glm::vec3 origin, glm::vec3 normal, float size, floa
     rays_.fetch_add(rays, std::memory_order_relaxed);
 }
 
-float DirectTransport::equal_flux_light(const float* factors) const {
+DirectRow DirectTransport::row_at(glm::vec3 origin, glm::vec3 normal, float size) const {
+    static thread_local std::vector<float> factors, deviations;
+    factors.resize(emitters_.size());
+    deviations.resize(emitters_.size());
+    light(origin, normal, size, factors.data(), deviations.data());
+    std::size_t seen = 0;
+    for (std::size_t l = 0; l < emitters_.size(); ++l) seen += factors[l] != 0 || deviations[l] != 0;
+    DirectRow row;
+    row.reserve(seen);
+    for (std::uint32_t l = 0; l < emitters_.size(); ++l)
+        if (factors[l] != 0 || deviations[l] != 0) row.push_back({l, factors[l], deviations[l]});
+    return row;
+}
+
+float DirectTransport::equal_flux_light(const DirectRow& row) const {
     float sum = 0;
-    for (std::size_t l = 0; l < emitters_.size(); ++l) sum += weight_[l] * factors[l];
+    for (const DirectShare& share : row) sum += weight_[share.emitter] * share.factor;
+    return sum;
+}
+
+void DirectTransport::read_rows(std::span<const float> at_rows, std::size_t stride,
+                                std::span<float> at_vertices) const {
+    const auto count = static_cast<std::uint32_t>(mesh_.vertices.size());
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, count, 1024), [&](const auto& range) {
+        for (std::uint32_t v = range.begin(); v < range.end(); ++v) {
+            float* out = at_vertices.data() + v * stride;
+            if (const std::uint32_t row = row_of(v); row != no_index) {
+                std::copy_n(at_rows.data() + row * stride, stride, out);
+                continue;
+            }
+            std::fill_n(out, stride, 0.0f);
+            for (const LightSamples::Reading& r : samples_.readings_of(v))
+                for (std::size_t k = 0; k < stride; ++k) out[k] += r.weight * at_rows[r.sample * stride + k];
+        }
+    });
+}
+
+std::size_t DirectTransport::bytes() const {
+    std::size_t sum = rows_.size() * sizeof(DirectRow);
+    for (const DirectRow& row : rows_) sum += row.capacity() * sizeof(DirectShare);
     return sum;
 }
 
 double DirectTransport::progress() const {
-    if (sketch_cursor_ < mesh_.vertices.size() && vertex_cursor_ == 0)
-        return double(sketch_cursor_) / double(mesh_.vertices.size());
-    if (vertex_cursor_ < mesh_.vertices.size()) return double(vertex_cursor_) / double(mesh_.vertices.size());
+    const std::uint32_t count = row_count();
+    if (sketch_cursor_ < count && row_cursor_ == 0) return double(sketch_cursor_) / count;
+    if (row_cursor_ < count) return double(row_cursor_) / count;
     return refined_ || edges_.edges().empty() ? 1 : double(edge_cursor_) / double(edges_.edges().size());
 }
 
 bool DirectTransport::sketch(const std::atomic<bool>& cancel) {
-    const std::uint32_t count = static_cast<std::uint32_t>(mesh_.vertices.size());
-    return run_slice(sketch_cursor_, count, 128, cancel, [&](std::uint32_t first, std::uint32_t last) {
-        for (std::uint32_t v = first; v < last; ++v)
-            for (std::size_t l = 0; l < emitters_.size(); ++l)
-                factors_[std::size_t(v) * emitters_.size() + l] =
-                    direct_form_factor_sketch(world_, emitters_[l], origins_[v], mesh_.vertices[v].normal,
-                                              hash(v, static_cast<std::uint32_t>(l)));
+    const bool done = run_slice(sketch_cursor_, row_count(), 128, cancel, [&](std::uint32_t first, std::uint32_t last) {
+        for (std::uint32_t r = first; r < last; ++r) {
+            const std::uint32_t v = vertex_of(r);
+            rows_[r].clear();
+            for (std::uint32_t l = 0; l < emitters_.size(); ++l)
+                if (const float d = direct_form_factor_sketch(world_, emitters_[l], origins_[v],
+                                                              mesh_.vertices[v].normal, hash(v, l));
+                    d > 0)
+                    rows_[r].push_back({l, d, 0});
+        }
         rays_.fetch_add(std::uint64_t(last - first) * emitters_.size(), std::memory_order_relaxed);
     });
-}
-
-bool DirectTransport::light_vertices(const std::atomic<bool>& cancel) {
-    const std::uint32_t count = static_cast<std::uint32_t>(mesh_.vertices.size());
-    const bool done = run_slice(vertex_cursor_, count, 32, cancel, [&](std::uint32_t first, std::uint32_t last) {
-        for (std::uint32_t v = first; v < last; ++v) {
-            const std::size_t row = std::size_t(v) * emitters_.size();
-            float* factors = factors_.data() + row;
-            light(origins_[v], mesh_.vertices[v].normal, std::sqrt(area_[v]), factors, deviations_.data() + row);
-            buried_[v] = 0;
-            if (equal_flux_light(factors) == 0) find_buried(world_, mesh_, origins_, v, v + 1, buried_);
-        }
-    });
-    if (done && floor_ == 0 && count > 0) {
-        double sum = 0;
-        for (std::uint32_t v = 0; v < count; ++v) sum += equal_flux_light(at_vertex(v));
-        floor_ = static_cast<float>(0.25 * sum / count); // darker than this, a relative error is not seen
-        spread_deviations();
-    }
+    if (done) follow_rows();
     return done;
 }
 
+bool DirectTransport::light_vertices(const std::atomic<bool>& cancel) {
+    const std::uint32_t count = row_count();
+    if (followed_rows_ == count) return true;
+    const bool done = run_slice(row_cursor_, count, 32, cancel, [&](std::uint32_t first, std::uint32_t last) {
+        for (std::uint32_t r = first; r < last; ++r) {
+            const std::uint32_t v = vertex_of(r);
+            rows_[r] = row_at(origins_[v], mesh_.vertices[v].normal, std::sqrt(row_area_[r]));
+            buried_[v] = 0;
+            if (equal_flux_light(rows_[r]) == 0) find_buried(world_, mesh_, origins_, v, v + 1, buried_);
+        }
+    });
+    if (!done) return false;
+    for (std::uint32_t v = 0; v < sampled_vertices(); ++v) buried_[v] = buried_[samples_.vertex[samples_.of_vertex[v]]];
+    follow_rows();
+    followed_rows_ = count;
+    if (floor_ == 0 && count > 0) {
+        double sum = 0;
+        for (const float light : equal_flux_) sum += light;
+        floor_ = static_cast<float>(0.25 * sum / double(equal_flux_.size())); // darker: a relative error is not seen
+        spread_deviations();
+    }
+    return true;
+}
+
+// Edges shorter than a group is wide, between vertices that read samples, are too short to be looked at.
 void DirectTransport::begin_level() {
-    edges_.collect(params_.smallest_edge, [](std::uint32_t, std::uint32_t) { return true; });
+    edges_.collect(params_.smallest_edge, [this](std::uint32_t a, std::uint32_t b) {
+        return samples_.stands_alone(a) || samples_.stands_alone(b) ||
+               glm::distance(mesh_.vertices[a].position, mesh_.vertices[b].position) > samples_.cell;
+    });
     edge_cursor_ = 0;
-    edge_factors_.assign(edges_.edges().size() * emitters_.size(), 0);
-    edge_deviations_ = edge_factors_;
+    edge_rows_.assign(edges_.edges().size(), {});
 }
 
 void DirectTransport::split_bent() {
     std::vector<float> bent(edges_.edges().size(), 0); // the misfit where it is too large
     for (std::size_t e = 0; e < bent.size(); ++e) {
         const EdgeRefinement::Edge& edge = edges_.edges()[e];
-        const float here = equal_flux_light(edge_factors_.data() + e * emitters_.size());
-        const float guess = 0.5f * (equal_flux_light(at_vertex(edge.a)) + equal_flux_light(at_vertex(edge.b)));
+        const float here = equal_flux_light(edge_rows_[e]);
+        const float guess = 0.5f * (equal_flux_[edge.a] + equal_flux_[edge.b]);
         const float scale = std::max({here, guess, floor_});
         const float misfit = scale > 0 ? std::abs(here - guess) / scale : 0;
         const bool inside = buried_[edge.a] && buried_[edge.b];
@@ -123,30 +186,25 @@ void DirectTransport::split_bent() {
     edges_.split(bent, params_.most_vertices);
     // New vertices at middles that were looked at are lit already; the others (made for conformity) are lit now.
     const std::uint32_t after = static_cast<std::uint32_t>(mesh_.vertices.size());
-    factors_.resize(std::size_t(after) * emitters_.size(), 0);
-    deviations_.resize(factors_.size(), 0);
+    rows_.resize(rows_.size() + (after - before));
     buried_.resize(after, 0);
-    origins_ = ray_origins(mesh_, world_.epsilon());
-    area_ = vertex_areas(mesh_);
-    tbb::parallel_for(
-        tbb::blocked_range<std::uint32_t>(before, after, 16), [&](const tbb::blocked_range<std::uint32_t>& range) {
-            for (std::uint32_t v = range.begin(); v < range.end(); ++v) {
-                const std::uint32_t looked_at = edges_.edge_of(v);
-                const std::size_t row = std::size_t(v) * emitters_.size();
-                float *factors = factors_.data() + row, *deviations = deviations_.data() + row;
-                if (looked_at != no_index) {
-                    const std::size_t edge = std::size_t(looked_at) * emitters_.size();
-                    std::copy_n(edge_factors_.data() + edge, emitters_.size(), factors);
-                    std::copy_n(edge_deviations_.data() + edge, emitters_.size(), deviations);
-                } else
-                    light(origins_[v], mesh_.vertices[v].normal, std::sqrt(area_[v]), factors, deviations);
-                if (equal_flux_light(factors) == 0) find_buried(world_, mesh_, origins_, v, v + 1, buried_);
-            }
-        });
-    vertex_cursor_ = after;
+    follow_rows();
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(before, after, 16),
+                      [&](const tbb::blocked_range<std::uint32_t>& range) {
+                          for (std::uint32_t v = range.begin(); v < range.end(); ++v) {
+                              const std::uint32_t looked_at = edges_.edge_of(v), r = row_of(v);
+                              rows_[r] = looked_at != no_index
+                                             ? std::move(edge_rows_[looked_at])
+                                             : row_at(origins_[v], mesh_.vertices[v].normal, std::sqrt(row_area_[r]));
+                              equal_flux_[v] = equal_flux_light(rows_[r]);
+                              if (equal_flux_[v] == 0) find_buried(world_, mesh_, origins_, v, v + 1, buried_);
+                          }
+                      });
+    row_cursor_ = followed_rows_ = row_count();
     refined_ = after == before || after >= params_.most_vertices;
     if (refined_) {
         misfit_ = misfit_count_ > 0 ? std::sqrt(misfit_sum_ / double(misfit_count_)) : 0;
+        edge_rows_ = {};
         spread_deviations();
     }
 }
@@ -154,45 +212,74 @@ void DirectTransport::split_bent() {
 // Beside a penumbra six probes that agree may still be wrong by what lies between them: a seventh of the luminaire.
 void DirectTransport::spread_deviations() {
     constexpr float share_between_probes = 0.07f;
-    const std::size_t emitters = emitters_.size();
-    std::vector<float> beside(deviations_.size(), 0);
-    for (const glm::uvec3& e : mesh_.elements)
-        for (std::size_t l = 0; l < emitters; ++l) {
+    std::vector<std::vector<std::pair<std::uint32_t, float>>> beside(rows_.size());
+    for (const glm::uvec3& e : mesh_.elements) {
+        const std::array<std::uint32_t, 3> rows{row_of(e.x), row_of(e.y), row_of(e.z)};
+        if (std::ranges::count(rows, no_index) > 0) continue;
+        std::array<std::size_t, 3> next{};
+        for (;;) { // one emitter after the other
+            std::uint32_t l = no_index;
+            for (std::size_t k = 0; k < 3; ++k)
+                if (next[k] < rows_[rows[k]].size()) l = std::min(l, rows_[rows[k]][next[k]].emitter);
+            if (l == no_index) break;
             float brightest = 0;
             bool mixed = false, lit = false, dark = false;
-            for (int k = 0; k < 3; ++k) {
-                const std::size_t at = e[k] * emitters + l;
-                brightest = std::max(brightest, factors_[at]);
-                mixed = mixed || deviations_[at] > 0.01f * factors_[at];
-                lit = lit || factors_[at] > 0;
-                dark = dark || factors_[at] == 0;
+            for (std::size_t k = 0; k < 3; ++k) {
+                float factor = 0, deviation = 0;
+                const DirectRow& row = rows_[rows[k]];
+                if (next[k] < row.size() && row[next[k]].emitter == l)
+                    factor = row[next[k]].factor, deviation = row[next[k]].deviation, ++next[k];
+                brightest = std::max(brightest, factor);
+                mixed = mixed || deviation > 0.01f * factor;
+                lit = lit || factor > 0;
+                dark = dark || factor == 0;
             }
             if (mixed || (lit && dark))
-                for (int k = 0; k < 3; ++k)
-                    beside[e[k] * emitters + l] =
-                        std::max(beside[e[k] * emitters + l], share_between_probes * brightest / 3);
+                for (const std::uint32_t row : rows) beside[row].emplace_back(l, share_between_probes * brightest / 3);
         }
-    for (std::size_t i = 0; i < beside.size(); ++i) deviations_[i] = std::max(deviations_[i], beside[i]);
+    }
+    tbb::parallel_for(std::size_t(0), rows_.size(), [&](std::size_t r) {
+        DirectRow& row = rows_[r];
+        std::sort(beside[r].begin(), beside[r].end());
+        const auto known = static_cast<std::ptrdiff_t>(row.size());
+        for (const auto& [l, deviation] : beside[r]) { // the largest of an emitter comes last
+            const auto found = std::lower_bound(row.begin(), row.begin() + known, l,
+                                                [](const DirectShare& s, std::uint32_t e) { return s.emitter < e; });
+            if (found != row.begin() + known && found->emitter == l)
+                found->deviation = std::max(found->deviation, deviation);
+            else if (static_cast<std::ptrdiff_t>(row.size()) > known && row.back().emitter == l)
+                row.back().deviation = deviation;
+            else
+                row.push_back({l, 0, deviation});
+        }
+        std::inplace_merge(row.begin(), row.begin() + known, row.end(),
+                           [](const DirectShare& a, const DirectShare& b) { return a.emitter < b.emitter; });
+        row.shrink_to_fit();
+        beside[r] = {};
+    });
 }
 
 void DirectTransport::follow_mesh() {
     const std::uint32_t before = static_cast<std::uint32_t>(buried_.size());
     const std::uint32_t count = static_cast<std::uint32_t>(mesh_.vertices.size());
-    factors_.resize(std::size_t(count) * emitters_.size(), 0);
-    deviations_.resize(factors_.size(), 0);
+    rows_.resize(rows_.size() + (count - before));
     buried_.resize(count, 0);
+    std::vector<float> factors(emitters_.size()), deviations(emitters_.size());
     for (std::uint32_t v = before; v < count; ++v) {
         const auto& p = mesh_.vertices[v].parents;
         buried_[v] = buried_[p[0]] && buried_[p[1]];
-        for (std::size_t l = 0; l < emitters_.size(); ++l) {
-            const std::size_t at = v * emitters_.size() + l, a = p[0] * emitters_.size() + l,
-                              b = p[1] * emitters_.size() + l;
-            factors_[at] = 0.5f * (factors_[a] + factors_[b]);
-            deviations_[at] = std::max(deviations_[a], deviations_[b]);
-        }
+        std::ranges::fill(factors, 0.0f);
+        std::ranges::fill(deviations, 0.0f);
+        for (const std::uint32_t parent : p)
+            each_share(parent, [&](const DirectShare& share, float part) {
+                factors[share.emitter] += 0.5f * part * share.factor;
+                deviations[share.emitter] = std::max(deviations[share.emitter], part * share.deviation);
+            });
+        DirectRow& row = rows_[row_of(v)];
+        for (std::uint32_t l = 0; l < emitters_.size(); ++l)
+            if (factors[l] != 0 || deviations[l] != 0) row.push_back({l, factors[l], deviations[l]});
     }
-    origins_ = ray_origins(mesh_, world_.epsilon());
-    area_ = vertex_areas(mesh_);
+    follow_rows();
     if (!refined_) edges_.follow_mesh(); // refine() goes on from here
     level_begun_ = false;
 }
@@ -204,17 +291,16 @@ bool DirectTransport::refine(const std::atomic<bool>& cancel) {
         level_begun_ = true;
     }
     const float epsilon = world_.epsilon();
-    const bool done = run_slice(
-        edge_cursor_, static_cast<std::uint32_t>(edges_.edges().size()), 32, cancel,
-        [&](std::uint32_t first, std::uint32_t last) {
-            for (std::uint32_t e = first; e < last; ++e) {
-                const EdgeRefinement::Edge& edge = edges_.edges()[e];
-                const EdgeRefinement::Place middle = edges_.middle(edge, epsilon);
-                const float length = glm::distance(mesh_.vertices[edge.a].position, mesh_.vertices[edge.b].position);
-                light(middle.origin, middle.normal, length, edge_factors_.data() + std::size_t(e) * emitters_.size(),
-                      edge_deviations_.data() + std::size_t(e) * emitters_.size());
-            }
-        });
+    const bool done = run_slice(edge_cursor_, static_cast<std::uint32_t>(edges_.edges().size()), 32, cancel,
+                                [&](std::uint32_t first, std::uint32_t last) {
+                                    for (std::uint32_t e = first; e < last; ++e) {
+                                        const EdgeRefinement::Edge& edge = edges_.edges()[e];
+                                        const EdgeRefinement::Place middle = edges_.middle(edge, epsilon);
+                                        const float length = glm::distance(mesh_.vertices[edge.a].position,
+                                                                           mesh_.vertices[edge.b].position);
+                                        edge_rows_[e] = row_at(middle.origin, middle.normal, length);
+                                    }
+                                });
     if (!done) return false;
     split_bent();
     level_begun_ = false;

@@ -3,14 +3,19 @@
 //
 // Refinement looks at geometry only (all luminaires as if they gave the same flux), so that no edit of a lamp or a
 // paint changes the mesh, and a solution after edits is the solution of the same scene opened afresh.
+//
+// Kept in rows: of the luminaires that a place sees, few of a hall's hundreds. Rows are those of the samples of the
+// coarse mesh (light_samples.h), then those of the vertices that refinement adds.
 #pragma once
 
 #include <atomic>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/transport/direct_light.h"
 #include "core/transport/edge_refinement.h"
+#include "core/transport/light_samples.h"
 #include "core/transport/mesh.h"
 #include "core/transport/world.h"
 
@@ -23,10 +28,20 @@ struct DirectParams {
     std::uint32_t most_vertices = 60000;
 };
 
+// What one emitter gives one place: D, irradiance for unit exitance, and its standard deviation: of the stratified
+// points in a penumbra; next to one, of the few probes that found a vertex wholly lit or wholly dark.
+struct DirectShare {
+    std::uint32_t emitter;
+    float factor, deviation;
+};
+using DirectRow = std::vector<DirectShare>; // by emitter
+
 class DirectTransport {
 public:
-    // `mesh` and `world` must outlive it; refine() grows the mesh.
-    DirectTransport(const World& world, Mesh& mesh, std::vector<Emitter> emitters, const DirectParams& params);
+    // `mesh` and `world` must outlive it; refine() grows the mesh. samples: of the mesh as it is now; without any, all
+    // vertices are samples.
+    DirectTransport(const World& world, Mesh& mesh, std::vector<Emitter> emitters, const DirectParams& params,
+                    LightSamples samples = {});
 
     // Each brings its stage forward by one time slice; true when the stage is done.
     bool sketch(const std::atomic<bool>& cancel);         // a first guess of D at the vertices there are, one ray each
@@ -40,15 +55,29 @@ public:
     std::size_t lit_vertices() const { return buried_.size(); } // that it knows of
     std::size_t emitter_count() const { return emitters_.size(); }
     const std::vector<Emitter>& emitters() const { return emitters_; }
-    // Of factors D: irradiance, were all luminaires of the same flux.
-    float equal_flux_light(const float* factors) const;
-    // D of each emitter at a vertex: irradiance for unit exitance.
-    const float* at_vertex(std::uint32_t v) const { return factors_.data() + std::size_t(v) * emitters_.size(); }
-    // Standard deviation of D at a vertex, one an emitter: of the stratified points in a penumbra; next to one, of the
-    // few probes that found a vertex wholly lit or wholly dark.
-    const float* deviation_at_vertex(std::uint32_t v) const {
-        return deviations_.data() + std::size_t(v) * emitters_.size();
+    // Irradiance at all vertices, were all luminaires of the same flux.
+    const std::vector<float>& equal_flux_light() const { return equal_flux_; }
+    const LightSamples& samples() const { return samples_; }
+    const std::vector<DirectRow>& rows() const { return rows_; }
+    std::uint32_t row_count() const { return static_cast<std::uint32_t>(rows_.size()); }
+    // Of `stride` numbers at each row: those at all vertices, one after the other.
+    void read_rows(std::span<const float> at_rows, std::size_t stride, std::span<float> at_vertices) const;
+    // f(share, weight) of all shares that D at a vertex is made of.
+    template <typename F>
+    void each_share(std::uint32_t v, const F& f) const {
+        if (const std::uint32_t row = row_of(v); row != no_index) {
+            for (const DirectShare& share : rows_[row]) f(share, 1.0f);
+            return;
+        }
+        for (const LightSamples::Reading& r : samples_.readings_of(v))
+            for (const DirectShare& share : rows_[r.sample]) f(share, r.weight);
     }
+    // Adds weight * D of each emitter at a vertex.
+    void add_factors(std::uint32_t v, float weight, std::span<float> factors) const {
+        each_share(
+            v, [&](const DirectShare& share, float part) { factors[share.emitter] += weight * part * share.factor; });
+    }
+    std::size_t bytes() const; // of memory that rows take
     const std::vector<std::uint8_t>& buried() const {
         return buried_;
     }                                         // one a vertex; set for dark vertices inside solids
@@ -58,22 +87,35 @@ public:
 
 private:
     void light(glm::vec3 origin, glm::vec3 normal, float size, float* factors, float* deviations) const;
+    DirectRow row_at(glm::vec3 origin, glm::vec3 normal, float size) const;
+    float equal_flux_light(const DirectRow& row) const;
+    void follow_rows(); // what all vertices read of them
     void spread_deviations();
     void begin_level();
     void split_bent();
+    std::uint32_t sampled_vertices() const { return static_cast<std::uint32_t>(samples_.of_vertex.size()); }
+    std::uint32_t row_of(std::uint32_t v) const { // no_index: it reads samples
+        if (v >= sampled_vertices()) return v - sampled_vertices() + samples_.count();
+        return samples_.is_sample(v) ? samples_.of_vertex[v] : no_index;
+    }
+    std::uint32_t vertex_of(std::uint32_t row) const {
+        return row < samples_.count() ? samples_.vertex[row] : row - samples_.count() + sampled_vertices();
+    }
 
     const World& world_;
     Mesh& mesh_;
     std::vector<Emitter> emitters_;
     DirectParams params_;
+    LightSamples samples_;
     EdgeRefinement edges_; // of this level, and their D:
-    std::vector<float> edge_factors_, edge_deviations_;
-    std::vector<float> weight_;               // exitance of each emitter at equal flux
-    std::vector<float> factors_, deviations_; // vertices * emitters
+    std::vector<DirectRow> edge_rows_;
+    std::vector<float> weight_; // exitance of each emitter at equal flux
+    std::vector<DirectRow> rows_;
+    std::vector<float> row_area_;   // m^2 that each row stands for
+    std::vector<float> equal_flux_; // of each vertex
     std::vector<std::uint8_t> buried_;
     std::vector<glm::vec3> origins_;
-    std::vector<float> area_; // m^2, of each vertex
-    std::uint32_t sketch_cursor_ = 0, vertex_cursor_ = 0;
+    std::uint32_t sketch_cursor_ = 0, row_cursor_ = 0, followed_rows_ = 0;
 
     std::uint32_t edge_cursor_ = 0;
     bool level_begun_ = false, refined_ = false;

@@ -5,17 +5,17 @@
 namespace lueur {
 
 EdgeRefinement::EdgeRefinement(Mesh& mesh)
-    : mesh_(mesh)
-    , bisection_(mesh) {}
+    : mesh_(mesh) {}
 
 void EdgeRefinement::follow_mesh() {
-    bisection_.emplace(mesh_);
+    bisection_.reset();
 }
 
 void EdgeRefinement::collect(float smallest, const std::function<bool(std::uint32_t a, std::uint32_t b)>& wanted) {
     edges_.clear();
     edge_slot_.clear();
     open_.clear();
+    if (!bisection_) bisection_.emplace(mesh_);
     for (; next_node_ < mesh_.nodes.size(); ++next_node_)
         if (mesh_.nodes[next_node_].children == no_index) open_.push_back(next_node_);
     for (const std::uint32_t n : open_) {

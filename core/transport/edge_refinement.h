@@ -45,7 +45,7 @@ public:
 
 private:
     Mesh& mesh_;
-    std::optional<Bisection> bisection_;
+    std::optional<Bisection> bisection_; // made when edges are first asked for
     std::vector<Edge> edges_;
     std::unordered_map<std::uint64_t, std::uint32_t> edge_slot_;
     std::unordered_map<std::uint64_t, std::uint8_t> straight_; // edges of earlier levels whose middle was right

@@ -48,6 +48,14 @@ void find_buried(const World& world, const Mesh& mesh, const std::vector<glm::ve
     }
 }
 
+bool is_buried(const World& world, glm::vec3 origin, glm::vec3 normal) {
+    const Frame frame(normal);
+    int back_faces = 0;
+    for (std::uint32_t k = 0; k < burial_rays && back_faces <= most_back_faces; ++k)
+        back_faces += world.closest({origin, frame.world(cosine_direction(r2_point(k, {0, 0})))}).back_face;
+    return back_faces > most_back_faces;
+}
+
 GatherPass make_gather_pass(const Mesh& mesh, const Receivers& receivers) {
     const std::size_t rays = std::size_t(receivers.count()) * rays_per_pass;
     return {std::vector<std::uint32_t>(rays, receivers.count()),

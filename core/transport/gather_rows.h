@@ -34,6 +34,9 @@ struct Surroundings {
 void find_buried(const World& world, const Mesh& mesh, const std::vector<glm::vec3>& origins, std::uint32_t first,
                  std::uint32_t last, std::vector<std::uint8_t>& buried, Surroundings* around = nullptr);
 
+// The same for one place, from where its rays start.
+bool is_buried(const World& world, glm::vec3 origin, glm::vec3 normal);
+
 struct GatherPass {
     // receivers * rays_per_pass of each. The receiver each ray ended at, drawn among those of the vertices of the
     // element it met on the level of indirect light (the number of receivers where it left the scene or met a black

@@ -101,14 +101,14 @@ void refine_to_size(Mesh& mesh, float size) {
 }
 
 // The coarsest ancestor of each node whose edges are at most `patch_size` long (or the node itself), by node number.
-std::vector<std::uint32_t> patch_roots(const Mesh& mesh, const Bisection& bisection, float patch_size) {
+std::vector<std::uint32_t> patch_roots(const Mesh& mesh, float patch_size) {
     std::vector<std::uint32_t> root(mesh.nodes.size(), no_index);
     for (std::uint32_t n = 0; n < mesh.nodes.size(); ++n) { // parents come before children
         if (root[n] == no_index) {
-            const int edge = bisection.longest_edge(n);
+            const int edge = Bisection::longest_edge(mesh, n);
             const glm::uvec3 v = mesh.nodes[n].vertices;
             if (mesh.nodes[n].children == no_index ||
-                bisection.edge_length(v[edge], v[(edge + 1) % 3]) <= patch_size * patch_size)
+                Bisection::edge_length(mesh, v[edge], v[(edge + 1) % 3]) <= patch_size * patch_size)
                 root[n] = n;
         }
         if (root[n] != no_index && mesh.nodes[n].children != no_index)
@@ -121,7 +121,7 @@ std::vector<std::uint32_t> patch_roots(const Mesh& mesh, const Bisection& bisect
 void make_leaves_coarse(Mesh& mesh, float patch_size) {
     const std::uint32_t triangles =
         static_cast<std::uint32_t>(mesh.coarse_surface.size()); // the first nodes are those of the scene
-    const std::vector<std::uint32_t> root = patch_roots(mesh, Bisection(mesh), patch_size);
+    const std::vector<std::uint32_t> root = patch_roots(mesh, patch_size);
     std::vector<std::uint32_t> patch_of_root(mesh.nodes.size(), no_index);
     std::vector<MeshNode> leaves;
     std::vector<std::uint32_t> surface;

@@ -30,6 +30,14 @@ public:
         }
         return object;
     }
+    // Of a ball around the origin: the normals are its own.
+    void smooth_triangle(const std::string& name, MaterialIndex material, const std::array<glm::vec3, 3>& corners) {
+        const ObjectIndex object = object_named(name, material);
+        const std::uint32_t first = static_cast<std::uint32_t>(soup_.vertices.size());
+        for (const glm::vec3& c : corners) soup_.vertices.push_back({c, glm::normalize(c), glm::vec2(0)});
+        soup_.triangles.push_back({first, first + 1, first + 2});
+        soup_.triangle_object.push_back(object);
+    }
     // Axis-aligned box; inward: a room, each face its own object "name floor", ...; else one solid object.
     // without: the number of a face that is left out, or -1.
     std::array<ObjectIndex, 6> room(const std::string& name, std::array<MaterialIndex, 6> materials, glm::vec3 low,

@@ -211,24 +211,3 @@ TEST(DirectLight, FarAndNearAgree) {
         EXPECT_NEAR(direct_form_factor(world, emitter, p, normal, VisibilityDetail::two_cuts, rays) / exact, 1, 0.005);
     }
 }
-
-TEST(Receivers, StandForCloseVerticesThatLookTheSameWay) {
-    const Scene scene = test::small_room();
-    const Mesh mesh = make_mesh(scene, {0.25});
-    std::vector<std::uint8_t> buried(mesh.coarse_vertex_count, 0);
-    for (std::uint32_t v = 0; v < mesh.coarse_vertex_count; v += 7) buried[v] = 1;
-    const Receivers receivers = make_receivers(scene, mesh, buried, 0.4f);
-    EXPECT_LT(receivers.count(), mesh.coarse_vertex_count / 2);
-    for (std::uint32_t v = 0; v < mesh.coarse_vertex_count; ++v) {
-        const std::uint32_t r = receivers.of_vertex[v], w = receivers.vertex[r];
-        ASSERT_EQ(receivers.of_vertex[w], r);
-        EXPECT_LT(glm::distance(mesh.vertices[v].position, mesh.vertices[w].position), 0.4f * 1.74f);
-        EXPECT_GT(glm::dot(mesh.vertices[v].normal, mesh.vertices[w].normal), 0.7f);
-        EXPECT_EQ(scene.geometry->surfaces[mesh.vertices[v].surface].object,
-                  scene.geometry->surfaces[mesh.vertices[w].surface].object);
-        EXPECT_EQ(buried[v], buried[w]);
-        EXPECT_EQ(buried[v], receivers.buried[r]);
-    }
-    EXPECT_EQ(make_receivers(scene, mesh, buried, 1e-4f).count(),
-              mesh.coarse_vertex_count); // small cells: each its own
-}
