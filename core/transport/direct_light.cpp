@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "core/transport/emitter_visibility.h"
 #include "core/transport/polygon_form_factor.h"
@@ -34,6 +35,46 @@ double exact_form_factor(const Emitter& emitter, glm::vec3 origin, glm::vec3 nor
 
 bool nothing_arrives(const Emitter& emitter, glm::vec3 origin, glm::vec3 normal) {
     return emitter.area <= 0 || glm::dot(emitter.centre - origin, normal) <= -emitter.radius;
+}
+
+// Whether the exact formula is worth its time: near, or where there are few triangles.
+bool is_exact(const Emitter& emitter, glm::vec3 origin) {
+    const bool near = glm::length(emitter.centre - origin) < far_diameters * 2 * emitter.radius;
+    return emitter.triangles.size() <= (near ? most_exact_triangles : few_triangles);
+}
+
+double far_form_factor(const Emitter& emitter, glm::vec3 origin, glm::vec3 normal) {
+    double sum = 0;
+    for (const EmitterPoint& p : emitter.points) sum += double(emitter_kernel(origin, normal, p));
+    return sum * emitter.area / (std::numbers::pi * static_cast<double>(emitter.points.size()));
+}
+
+struct PointsSeen {
+    int facing = 0, count = 0;   // points that face the receiver, and of those the seen ones
+    double all = 0, visible = 0; // the same, of cos cos / r^2
+};
+
+PointsSeen look_at(const World& world, std::span<const EmitterPoint> points, glm::vec3 origin, glm::vec3 normal) {
+    PointsSeen seen;
+    std::array<glm::vec3, World::packet> targets;
+    std::array<double, World::packet> kernels;
+    std::size_t waiting = 0;
+    const auto trace = [&] {
+        if (waiting == 0) return;
+        const std::uint32_t hidden = world.hidden(origin, std::span(targets).first(waiting));
+        for (std::size_t k = 0; k < waiting; ++k)
+            if (!(hidden >> k & 1)) seen.count += 1, seen.visible += kernels[k];
+        waiting = 0;
+    };
+    for (const EmitterPoint& p : points) {
+        const double kernel = double(emitter_kernel(origin, normal, p));
+        if (!(kernel > 0)) continue;
+        seen.facing += 1, seen.all += kernel;
+        targets[waiting] = p.position, kernels[waiting] = kernel;
+        if (++waiting == World::packet) trace();
+    }
+    trace();
+    return seen;
 }
 
 void add_triangles(const Scene& scene, const Luminaire& luminaire, Emitter& emitter) {
@@ -110,6 +151,10 @@ std::vector<Emitter> make_emitters(const Scene& scene) {
                 for (const glm::vec3& c : t.corners) e.radius = std::max(e.radius, glm::length(c - e.centre));
             for (int k = 0; k < shadow_points; ++k)
                 e.points.push_back(emitter_point(e, r2_point(static_cast<std::uint32_t>(k), {0, 0})));
+            e.middle = *std::ranges::min_element(e.points, {}, [&](const EmitterPoint& p) {
+                const glm::vec3 d = p.position - e.centre;
+                return glm::dot(d, d);
+            });
             choose_probes(e);
         }
         emitters.push_back(std::move(e));
@@ -117,49 +162,42 @@ std::vector<Emitter> make_emitters(const Scene& scene) {
     return emitters;
 }
 
+float unshadowed_form_factor(const Emitter& emitter, glm::vec3 origin, glm::vec3 normal) {
+    if (nothing_arrives(emitter, origin, normal)) return 0;
+    return static_cast<float>(is_exact(emitter, origin) ? exact_form_factor(emitter, origin, normal)
+                                                        : far_form_factor(emitter, origin, normal));
+}
+
 float direct_form_factor(const World& world, const Emitter& emitter, glm::vec3 origin, glm::vec3 normal,
                          VisibilityDetail detail, std::uint64_t& rays, float* deviation) {
     if (deviation) *deviation = 0;
     if (nothing_arrives(emitter, origin, normal)) return 0;
-    int seen = 0, facing = 0;
-    for (const EmitterPoint& p : emitter.probes) {
-        if (emitter_kernel(origin, normal, p) <= 0) continue;
-        ++facing;
-        seen += sees(world, origin, p.position);
-    }
-    rays += facing;
-    const bool all_facing = facing == static_cast<int>(emitter.probes.size());
-    if (all_facing && seen == 0) return 0;
+    const PointsSeen probes = look_at(world, emitter.probes, origin, normal);
+    rays += static_cast<std::uint64_t>(probes.facing);
+    const bool all_facing = probes.facing == static_cast<int>(emitter.probes.size());
+    if (all_facing && probes.count == 0) return 0;
 
-    const bool wholly_seen = all_facing && seen == facing;
-    const float distance = glm::length(emitter.centre - origin);
-    const bool near = distance < far_diameters * 2 * emitter.radius;
-    const bool exact = emitter.triangles.size() <= (near ? most_exact_triangles : few_triangles);
+    const bool wholly_seen = all_facing && probes.count == probes.facing;
+    const bool exact = is_exact(emitter, origin);
     if (exact && wholly_seen) return static_cast<float>(exact_form_factor(emitter, origin, normal));
 
-    const bool subdivided = !wholly_seen && emitter.triangles.size() <= most_subdivided_triangles;
-    VisibleShare seen_share;
-    if (subdivided) seen_share = visible_share(world, emitter, origin, normal, detail, rays);
-    double f = exact ? exact_form_factor(emitter, origin, normal) : 0;
-    if (!exact || !subdivided) {
-        double visible = 0, all = 0;
-        for (const EmitterPoint& p : emitter.points) {
-            const float g = emitter_kernel(origin, normal, p);
-            if (g <= 0) continue;
-            all += g;
-            if (wholly_seen || (!subdivided && (++rays, sees(world, origin, p.position)))) visible += g;
-        }
-        if (!(all > 0)) return static_cast<float>(exact && seen > 0 ? f : 0);
-        if (!exact) f = all * emitter.area / (std::numbers::pi * static_cast<double>(emitter.points.size()));
-        if (!subdivided) {
-            const double share = visible / all;
-            seen_share = {share, point_penumbra_deviation * std::sqrt(4 * share * (1 - share))};
-        }
+    VisibleShare share{1, 0};
+    if (!wholly_seen && emitter.triangles.size() <= most_subdivided_triangles) {
+        share = visible_share(world, emitter, origin, normal, detail, rays);
+    } else if (!wholly_seen) {
+        const PointsSeen points = look_at(world, emitter.points, origin, normal);
+        rays += static_cast<std::uint64_t>(points.facing);
+        if (points.all > 0) {
+            const double visible = points.visible / points.all;
+            share = {visible, point_penumbra_deviation * std::sqrt(4 * visible * (1 - visible))};
+        } else
+            share.share = probes.count > 0 ? 1 : 0;
     }
+    const double f = exact ? exact_form_factor(emitter, origin, normal) : far_form_factor(emitter, origin, normal);
     // The points also stand for the formula itself, to 0.5 % at far_diameters, where they are not exact.
-    const double formula = exact ? 0 : 0.005 * seen_share.share;
-    if (deviation) *deviation = static_cast<float>(f * std::hypot(seen_share.deviation, formula));
-    return static_cast<float>(f * seen_share.share);
+    const double formula = exact ? 0 : 0.005 * share.share;
+    if (deviation) *deviation = static_cast<float>(f * std::hypot(share.deviation, formula));
+    return static_cast<float>(f * share.share);
 }
 
 float direct_form_factor_sketch(const World& world, const Emitter& emitter, glm::vec3 origin, glm::vec3 normal,

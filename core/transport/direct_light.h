@@ -32,6 +32,7 @@ struct Emitter {
     float area = 0;
     glm::vec3 centre{0};
     float radius = 0;                   // of a sphere around it
+    EmitterPoint middle{};              // the stratified point nearest to the centre
     std::vector<EmitterPoint> probes;   // far apart: all seen or all hidden settles V
     std::vector<EmitterPoint> points;   // stratified by area
     std::vector<float> cumulative_area; // one a triangle, ends at `area`
@@ -54,6 +55,9 @@ enum class VisibilityDetail { whole_cells, one_cut, two_cuts };
 // points leave (0 where the formula is exact and the probes agree).
 float direct_form_factor(const World& world, const Emitter& emitter, glm::vec3 origin, glm::vec3 normal,
                          VisibilityDetail detail, std::uint64_t& rays, float* deviation = nullptr);
+
+// F alone, as if nothing stood between; one kernel where the luminaire is far.
+float unshadowed_form_factor(const Emitter& emitter, glm::vec3 origin, glm::vec3 normal);
 
 // A first guess with one shadow ray, to a probe chosen by `choice`: unbiased far away, rough near the lamp. For a
 // picture at once.

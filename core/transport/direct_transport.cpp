@@ -6,21 +6,11 @@
 #include <span>
 
 #include "core/transport/gather_rows.h"
+#include "core/transport/many_lights.h"
 #include "core/transport/sampling.h"
 #include "core/transport/time_slice.h"
 
 namespace lueur {
-
-namespace {
-
-// What an emitter of some flux would give without any shadow, roughly.
-float unshadowed(const Emitter& emitter, glm::vec3 origin, glm::vec3 normal) {
-    const glm::vec3 d = emitter.centre - origin;
-    const float r2 = glm::dot(d, d) + emitter.radius * emitter.radius;
-    return std::max(0.0f, glm::dot(d, normal) + emitter.radius) / (r2 * std::sqrt(r2));
-}
-
-} // namespace
 
 DirectTransport::DirectTransport(const World& world, Mesh& mesh, std::vector<Emitter> emitters,
                                  const DirectParams& params, LightSamples samples)
@@ -51,22 +41,9 @@ void DirectTransport::follow_rows() {
 
 // size: m, across what this light stands for.
 void DirectTransport::light(glm::vec3 origin, glm::vec3 normal, float size, float* factors, float* deviations) const {
-    constexpr float fine = 0.1f, coarse = 0.03f; // of all light, on an element of full size
-    std::uint64_t rays = 0;
-    float all = 0;
-    for (const Emitter& e : emitters_) all += unshadowed(e, origin, normal);
-    std::fill_n(factors, emitters_.size(), 0.0f);
-    std::fill_n(deviations, emitters_.size(), 0.0f);
-    if (!(all > 0)) return;
-    const float part = std::min(1.0f, params_.element_size > 0 ? size / params_.element_size : 1) / all;
-    for (std::size_t l = 0; l < emitters_.size(); ++l) {
-        const float counts = part * unshadowed(emitters_[l], origin, normal);
-        const VisibilityDetail detail = counts > fine     ? VisibilityDetail::two_cuts
-                                        : counts > coarse ? VisibilityDetail::one_cut
-                                                          : VisibilityDetail::whole_cells;
-        factors[l] = direct_form_factor(world_, emitters_[l], origin, normal, detail, rays, &deviations[l]);
-    }
-    rays_.fetch_add(rays, std::memory_order_relaxed);
+    const float share = params_.element_size > 0 ? std::min(1.0f, size / params_.element_size) : 1;
+    rays_.fetch_add(direct_form_factors(world_, emitters_, origin, normal, share, factors, deviations),
+                    std::memory_order_relaxed);
 }
 
 DirectRow DirectTransport::row_at(glm::vec3 origin, glm::vec3 normal, float size) const {

@@ -1,0 +1,122 @@
+#include "core/transport/many_lights.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace lueur {
+
+namespace {
+
+// Of the light that arrives: a luminaire that counts for less is looked at less closely.
+constexpr float two_cuts_from = 0.1f, one_cut_from = 0.03f, all_probes_from = 0.015f;
+constexpr float shadow_share = 0.1f; // of the light there would be without shadows: darker is not told from dark
+// One ray decides for all of a luminaire; where its shadow's edge lies is not known, and few receivers are in one.
+constexpr float one_ray_deviation = 0.1f;
+constexpr float tail_share = 0.05f; // of all light, by the faintest luminaires together
+constexpr std::size_t fewest_in_tail = 8, tail_rays = 4;
+
+// What an emitter of some flux would give without any shadow, roughly.
+float rough_light(const Emitter& emitter, glm::vec3 origin, glm::vec3 normal) {
+    if (emitter.area <= 0) return 0;
+    const glm::vec3 d = emitter.centre - origin;
+    const float r2 = glm::dot(d, d) + emitter.radius * emitter.radius;
+    return std::max(0.0f, glm::dot(d, normal) + emitter.radius) / (r2 * std::sqrt(r2));
+}
+
+struct Candidate {
+    std::uint32_t emitter;
+    float light; // rough_light
+    bool seen = false;
+};
+
+// A bit of each candidate: whether the middle of it is seen. What faces away is taken for seen: it may be half over the
+// horizon, and is left to the probes.
+void look_at_middles(const World& world, std::span<const Emitter> emitters, glm::vec3 origin,
+                     std::span<Candidate> candidates) {
+    std::array<glm::vec3, World::packet> targets;
+    for (std::size_t first = 0; first < candidates.size(); first += World::packet) {
+        const std::span<Candidate> some = candidates.subspan(first, std::min(World::packet, candidates.size() - first));
+        for (std::size_t k = 0; k < some.size(); ++k) targets[k] = emitters[some[k].emitter].middle.position;
+        const std::uint32_t hidden = world.hidden(origin, std::span(targets).first(some.size()));
+        for (std::size_t k = 0; k < some.size(); ++k) some[k].seen = !(hidden >> k & 1);
+    }
+}
+
+// The faintest: all of them as much in the light as a few drawn by share are.
+void light_by_sample(const World& world, std::span<const Emitter> emitters, glm::vec3 origin, glm::vec3 normal,
+                     std::span<Candidate> tail, float* factors, float* deviations) {
+    float all = 0, squares = 0;
+    for (const Candidate& c : tail) all += c.light, squares += c.light * c.light;
+    std::array<Candidate, tail_rays> drawn{};
+    float before = 0;
+    std::size_t next = 0;
+    for (const Candidate& c : tail) {
+        before += c.light;
+        while (next < tail_rays && before > all * (float(next) + 0.5f) / tail_rays) drawn[next++] = c;
+    }
+    while (next < tail_rays) drawn[next++] = tail.back();
+    look_at_middles(world, emitters, origin, drawn);
+    const auto seen = static_cast<float>(std::ranges::count(drawn, true, &Candidate::seen));
+    const float share = seen / tail_rays, believed = (seen + 1) / (tail_rays + 2);
+    // Variance of the sum of all of them, shared among them as if each erred by itself.
+    const float deviation = std::sqrt(all * all / squares * believed * (1 - believed) / tail_rays);
+    for (const Candidate& c : tail) {
+        const float f = unshadowed_form_factor(emitters[c.emitter], origin, normal);
+        factors[c.emitter] = f * share;
+        deviations[c.emitter] = f * deviation;
+    }
+}
+
+} // namespace
+
+std::uint64_t direct_form_factors(const World& world, std::span<const Emitter> emitters, glm::vec3 origin,
+                                  glm::vec3 normal, float size_share, float* factors, float* deviations) {
+    std::fill_n(factors, emitters.size(), 0.0f);
+    std::fill_n(deviations, emitters.size(), 0.0f);
+    thread_local std::vector<Candidate> candidates;
+    candidates.clear();
+    float all = 0;
+    for (std::uint32_t l = 0; l < emitters.size(); ++l)
+        if (const float light = rough_light(emitters[l], origin, normal); light > 0)
+            candidates.push_back({l, light}), all += light;
+    if (!(all > 0)) return 0;
+    std::uint64_t rays = 0;
+    std::span<Candidate> shining(candidates);
+    if (candidates.size() == 1) { // its probes say all there is to say
+        candidates[0].seen = true;
+    } else {
+        std::ranges::sort(candidates, [](const Candidate& a, const Candidate& b) {
+            return a.light != b.light ? a.light > b.light : a.emitter < b.emitter;
+        });
+        float tail = 0;
+        std::size_t end = candidates.size();
+        while (end > 0 && tail + candidates[end - 1].light <= tail_share * all) tail += candidates[--end].light;
+        if (candidates.size() - end >= fewest_in_tail) {
+            light_by_sample(world, emitters, origin, normal, shining.subspan(end), factors, deviations);
+            rays += tail_rays;
+            shining = shining.first(end);
+        }
+        look_at_middles(world, emitters, origin, shining);
+        rays += shining.size();
+    }
+    float visible = shadow_share * all;
+    for (const Candidate& c : shining) visible += c.seen ? c.light : 0;
+    for (const Candidate& c : shining) {
+        const float counts = size_share * c.light / visible;
+        float &factor = factors[c.emitter], &deviation = deviations[c.emitter];
+        if (counts < all_probes_from) {
+            const float f = unshadowed_form_factor(emitters[c.emitter], origin, normal);
+            factor = c.seen ? f : 0;
+            deviation = c.seen ? one_ray_deviation * f : 0;
+            continue;
+        }
+        const VisibilityDetail detail = counts > two_cuts_from  ? VisibilityDetail::two_cuts
+                                        : counts > one_cut_from ? VisibilityDetail::one_cut
+                                                                : VisibilityDetail::whole_cells;
+        factor = direct_form_factor(world, emitters[c.emitter], origin, normal, detail, rays, &deviation);
+    }
+    return rays;
+}
+
+} // namespace lueur
