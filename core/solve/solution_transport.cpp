@@ -1,16 +1,14 @@
 // What every solver stands on: mesh, rays' world, direct light, who is buried.
 #include "core/solve/settled_words.h"
 #include "core/solve/solution_steps.h"
+#include "core/solve/solve_budgets.h"
 #include "core/transport/time_slice.h"
 
 namespace lueur {
 
 namespace {
 
-constexpr std::uint32_t fine_vertices = 20000; // that direct light may add: the window has to draw them
-constexpr double near_share = 0.01;            // of the coarse element size: what is nearer, elements do not resolve
-constexpr double sample_cell = 0.3;            // of the coarse element size: what lies closer shares its light
-constexpr std::uint32_t most_samples = 80000;
+constexpr double near_share = 0.01; // of the coarse element size: what is nearer, elements do not resolve
 
 using State = Solution::State;
 
@@ -22,7 +20,8 @@ bool refine_indirect(State& s, const std::atomic<bool>& cancel) {
             *s.world, s.mesh, *s.direct, s.buried, s.around.distance,
             IndirectParams{.smallest_element = s.direct->samples().cell,
                            .smallest_edge = static_cast<float>(s.element_size / 8),
-                           .most_vertices = s.mesh.coarse_vertex_count + 1000 + s.receivers.count() / 8});
+                           .most_vertices =
+                               s.mesh.coarse_vertex_count + contact_vertices + s.receivers.count() / contact_share});
     const std::uint64_t rays = s.indirect_refinement->rays();
     const bool done = s.indirect_refinement->step(cancel);
     s.status.rays += s.indirect_refinement->rays() - rays;

@@ -48,7 +48,7 @@ std::uint32_t object_of(const Scene& scene, const MeshVertex& vertex) {
 }
 
 // False when there are more than `most`.
-bool group(const Scene& scene, const Mesh& mesh, float cell, std::uint32_t most, LightSamples& samples) {
+bool group(const Scene& scene, const Mesh& mesh, float cell, float look, std::uint32_t most, LightSamples& samples) {
     std::unordered_map<GroupKey, std::uint32_t, GroupHash> known;
     samples.size.clear();
     samples.cell = cell;
@@ -56,7 +56,7 @@ bool group(const Scene& scene, const Mesh& mesh, float cell, std::uint32_t most,
     for (std::uint32_t v = 0; v < mesh.coarse_vertex_count; ++v) {
         const MeshVertex& vertex = mesh.vertices[v];
         const GroupKey key{object_of(scene, vertex), glm::ivec3(glm::floor(vertex.position / cell)),
-                           glm::ivec3(glm::round(2.0f * vertex.normal)), vertex.back};
+                           glm::ivec3(glm::round(look * vertex.normal)), vertex.back};
         const auto [found, fresh] = known.try_emplace(key, static_cast<std::uint32_t>(samples.size.size()));
         if (fresh) {
             if (samples.size.size() == most) return false;
@@ -289,10 +289,33 @@ void add_readings(const Scene& scene, const Mesh& mesh, const World& world, cons
 
 } // namespace
 
+std::uint32_t count_light_samples(const Scene& scene, float cell, std::uint32_t most) {
+    const Geometry& geometry = *scene.geometry;
+    std::unordered_map<GroupKey, std::uint32_t, GroupHash> known;
+    for (std::size_t t = 0; t < geometry.triangles.size() && known.size() < most; ++t) {
+        const glm::uvec3 corners = geometry.triangles[t];
+        const glm::vec3 a = geometry.vertices[corners.x].position;
+        const glm::vec3 cross =
+            glm::cross(geometry.vertices[corners.y].position - a, geometry.vertices[corners.z].position - a);
+        const float length = glm::length(cross);
+        for (int k = 0; k < 3 && length > 0; ++k) {
+            const Vertex& v = geometry.vertices[corners[k]];
+            const glm::vec3 normal = v.normal == glm::vec3(0) ? cross / length : v.normal;
+            const auto object =
+                static_cast<std::uint32_t>(at(geometry.surfaces[at(geometry.triangle_surface[t])].object));
+            known.try_emplace(
+                {object, glm::ivec3(glm::floor(v.position / cell)), glm::ivec3(glm::round(2.0f * normal)), false});
+        }
+    }
+    return static_cast<std::uint32_t>(known.size());
+}
+
 LightSamples make_light_samples(const Scene& scene, const Mesh& mesh, const World& world,
                                 const std::vector<glm::vec3>& origins, float cell, std::uint32_t most) {
     LightSamples samples;
-    while (!group(scene, mesh, cell, most, samples)) cell *= wider;
+    // First normals within about 30 degrees, then within 50, then wider cubes.
+    for (float look = 2; !group(scene, mesh, cell, look, most, samples); look = 1)
+        if (look == 1) cell *= wider;
     choose_samples(mesh, world, origins, samples);
     add_readings(scene, mesh, world, origins, samples);
     return samples;

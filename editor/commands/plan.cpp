@@ -1,4 +1,4 @@
-// `lueur plan`: how many wavelengths a scene needs, and why. Nothing is solved.
+// `lueur plan`: how many wavelengths a scene needs, and why, and how much memory. Nothing is solved.
 #include <chrono>
 #include <cstdio>
 
@@ -8,6 +8,8 @@
 #include "core/scene/scene_file.h"
 #include "core/scene/spectral_content.h"
 #include "core/solve/channel_field.h"
+#include "core/solve/form_factor_matrix.h"
+#include "core/solve/memory_plan.h"
 #include "core/spectrum/wavelengths_plan.h"
 #include "editor/commands/batch_session.h"
 #include "editor/commands/output_file.h"
@@ -32,6 +34,7 @@ struct ScenePlan {
     SpectralContent content;
     WavelengthsPlan plan;
     double seconds = 0;
+    MemoryPlan memory;
     std::vector<LampPrediction> lamps;
     std::vector<RulePrediction> rules; // the chosen one first
 };
@@ -65,6 +68,7 @@ ScenePlan plan_scene(const Scene& scene) {
     const auto start = std::chrono::steady_clock::now();
     plan.plan = plan_wavelengths(scene.solve.wavelengths, plan.content, scene.solve.colour_error);
     plan.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    plan.memory = plan_memory(scene, plan.plan.wavelengths.size());
     for (const Spectrum& light : plan.content.lights)
         plan.lamps.push_back({luminaires_with(scene, light),
                               predict_difference(plan.plan.wavelengths, {{light}, plan.content.reflectances})});
@@ -108,6 +112,14 @@ std::string plan_text(const ScenePlan& plan, const std::filesystem::path& file) 
     text += fmt::format("wavelengths  {} nm\n", wavelength_list(wavelengths));
     text += fmt::format("why          {}\n", plan.plan.reason);
     text += fmt::format("planned in   {:.1f} ms\n", 1e3 * plan.seconds);
+    const MemoryPlan& m = plan.memory;
+    text +=
+        fmt::format("mesh         about {} vertices, {} elements; light is computed at {} of them and where it bends\n",
+                    m.vertices, m.elements, m.samples);
+    text += fmt::format("memory       about {}: scene {}, mesh {}, world of the rays {}, direct light {}, rows {}, "
+                        "fields {}\n",
+                        bytes_text(m.peak()), bytes_text(m.scene), bytes_text(m.mesh), bytes_text(m.world),
+                        bytes_text(m.direct), bytes_text(m.rows), bytes_text(m.fields));
     if (plan.content.lights.empty()) text += "No luminaire emits: equal energy is taken in their place.\n";
 
     std::size_t width = std::string_view("lamp spectrum of").size();
@@ -150,6 +162,13 @@ std::string plan_json(const ScenePlan& plan, const PlanCommand& command, const S
     report["reason"] = plan.plan.reason;
     report["channel_nm"] = plan.plan.wavelengths.nm;
     prediction(report, plan.plan.prediction);
+    const MemoryPlan& memory = plan.memory;
+    report["memory_bytes"] =
+        Json{{"peak", memory.peak()},   {"scene", memory.scene}, {"mesh", memory.mesh},    {"world", memory.world},
+             {"direct", memory.direct}, {"rows", memory.rows},   {"fields", memory.fields}};
+    report["vertices"] = memory.vertices;
+    report["elements"] = memory.elements;
+    report["samples"] = memory.samples;
     report["lamps"] = Json::array();
     for (const LampPrediction& lamp : plan.lamps) {
         Json one{{"luminaires", lamp.luminaires}};
