@@ -204,6 +204,32 @@ struct Hall {
                   [](float u, float v) { return v > 0.3f && v < 0.75f ? 1 + 0.02f * std::cos(20 * tau * u) : 1; });
         add_box(part(name + " abacus", stone), place, {-0.42f, 5.002f, -0.42f}, {0.42f, 5.2f, 0.42f});
     }
+    // The round spine and the top of a book that stands from `low` to `top`.
+    void add_book(Part& part, const Placing& place, float x, float w, float low, float top) const {
+        const int around = std::max(1, static_cast<int>(std::lround(0.8f * detail))), up = std::max(1, around / 2);
+        const auto curve = [&](float u) { return 0.22f + 0.25f * w * (1 - (2 * u - 1) * (2 * u - 1)); };
+        const auto first = static_cast<std::uint32_t>(part.positions.size());
+        for (int j = 0; j <= up; ++j)
+            for (int i = 0; i <= around; ++i) {
+                const float u = float(i) / float(around);
+                part.positions.push_back(place.point({x + w * u, low + (top - low) * float(j) / float(up), curve(u)}));
+                part.normals.push_back(place.vector(glm::normalize(glm::vec3(2 * u - 1, 0, 1))));
+            }
+        const auto at = [&](int i, int j) { return first + static_cast<std::uint32_t>(j * (around + 1) + i); };
+        for (int j = 0; j < up; ++j)
+            for (int i = 0; i < around; ++i) {
+                part.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+                part.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+            }
+        for (int i = 0; i < around; ++i) {
+            const float a = float(i) / float(around), b = float(i + 1) / float(around);
+            add_face(part, place,
+                     {{{x + w * a, top, 0.02f},
+                       {x + w * a, top, curve(a)},
+                       {x + w * b, top, curve(b)},
+                       {x + w * b, top, 0.02f}}});
+        }
+    }
     void bookcase(const Placing& place, const std::string& name, std::uint32_t seed) {
         constexpr float width = 2.4f, depth = 0.32f, height = 2.3f, board = 0.03f;
         constexpr int shelves = 6;
@@ -212,23 +238,31 @@ struct Hall {
         for (const float x : {-width / 2, width / 2 - board})
             add_box(frame, place, {x, 0.001f, 0.021f}, {x + board, height, depth});
         std::array<Part, cloths> books;
-        const float thick = std::clamp(0.30f / detail, 0.025f, 0.5f);
+        const float thick = std::clamp(0.12f / detail, 0.03f, 0.2f);
         for (int s = 0; s <= shelves; ++s) {
             const float y = 0.06f + float(s) * (height - 0.1f) / shelves;
             add_box(frame, place, {-width / 2 + board + 0.001f, y, 0.021f},
                     {width / 2 - board - 0.001f, y + board, depth});
             if (s == shelves) break;
-            float x = -width / 2 + board + 0.01f;
+            // Books that stand close: their outline is one surface, spines, tops and the steps between them.
+            float x = -width / 2 + board + 0.01f, before = y + board;
             for (std::uint32_t b = 0;; ++b) {
                 const std::uint32_t r = seed * 7919u + std::uint32_t(s) * 613u + b;
                 const float w = thick * (0.7f + 0.7f * random_unit(r));
-                if (x + w > width / 2 - board - 0.01f) break;
-                const float h = 0.2f + 0.11f * random_unit(r + 7777u), d = 0.16f + 0.1f * random_unit(r + 3333u);
-                if (random_unit(r + 1234u) > 0.06f)
-                    add_box(books[std::min<std::size_t>(
-                                cloths - 1, static_cast<std::size_t>(random_unit(r + 99u) * float(cloths)))],
-                            place, {x, y + board + 0.001f, 0.03f}, {x + w - 0.002f, y + board + h, 0.03f + d});
-                x += w;
+                const bool last = x + w > width / 2 - board - 0.01f, none = last || random_unit(r + 1234u) < 0.06f;
+                const float top = y + board + (none ? 0 : 0.2f + 0.11f * random_unit(r + 7777u));
+                Part& book = books[std::min<std::size_t>(
+                    cloths - 1, static_cast<std::size_t>(random_unit(r + 99u) * float(cloths)))];
+                if (top != before) {
+                    const float low = std::min(top, before), up = std::max(top, before);
+                    if (top > before)
+                        add_face(book, place, {{{x, low, 0.02f}, {x, low, 0.22f}, {x, up, 0.22f}, {x, up, 0.02f}}});
+                    else
+                        add_face(book, place, {{{x, low, 0.22f}, {x, low, 0.02f}, {x, up, 0.02f}, {x, up, 0.22f}}});
+                }
+                if (last) break;
+                if (!none) add_book(book, place, x, w, y + board, top);
+                before = top, x += w;
             }
         }
         for (std::size_t c = 0; c < cloths; ++c)
@@ -429,12 +463,12 @@ void write_toml(const std::filesystem::path& path, const std::string& name, cons
     file.open(path);
     file << fmt::format("name  = \"{0}\"\nunits = \"metre\"\nup    = \"y\"\n\n[[geometry]]\nfile = \"{0}.glb\"\n",
                         name);
-    // Rows of three kinds of tubes, some of them dimmed.
-    static const char* spectra[] = {"FL11", "LED-B4", "FL3.12"};
+    // Rows of lamps of three colours, some of them dimmed.
+    static const char* spectra[] = {"blackbody = 3000", "daylight = 5000", "daylight = 6500"};
     for (int i = 0; i < params.luminaires_along; ++i)
         for (int k = 0; k < params.luminaires_across; ++k)
             file << fmt::format("\n[[luminaire]]\nname     = \"lamp {0}\"\nobjects  = [\"lamp {0}\"]\n"
-                                "spectrum = {{ library = \"{1}\" }}\npower    = {{ lumen = {2} }}\n",
+                                "spectrum = {{ {1} }}\npower    = {{ lumen = {2} }}\n",
                                 i * params.luminaires_across + k + 1, spectra[k % 3], k % 4 == 3 ? 1800 : 3000);
     file << "\n[camera]\nposition = [1.2, 1.75, 12.9]\ntarget   = [14, 1.2, 8.6]\nvertical_fov_degrees = 52\n";
 }
