@@ -54,7 +54,8 @@ MemoryPlan plan_memory(const Scene& scene, int channels) {
     const double samples = count_light_samples(scene, static_cast<float>(sample_cell * size), most_samples) +
                            std::max(0.0, vertices - double(geometry.vertices.size()));
     const double lit = std::min<double>(samples, most_samples);
-    const double fine = std::min<double>(fine_vertices, 4 * lit) + contact_vertices + lit / contact_share;
+    const double fine = std::min<double>(fine_vertices(static_cast<std::uint64_t>(vertices)), 4 * lit) +
+                        contact_vertices + lit / contact_share;
     plan.samples = static_cast<std::uint64_t>(lit);
     plan.vertices = static_cast<std::uint64_t>(vertices + fine);
     plan.elements = static_cast<std::uint64_t>(elements + 2 * fine);

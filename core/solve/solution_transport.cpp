@@ -69,7 +69,7 @@ void step_mesh(State& s) {
                                               static_cast<float>(sample_cell * s.element_size), most_samples);
     const DirectParams params{.smallest_edge = static_cast<float>(s.element_size / 8),
                               .element_size = static_cast<float>(s.element_size),
-                              .most_vertices = s.mesh.coarse_vertex_count + fine_vertices};
+                              .most_vertices = s.mesh.coarse_vertex_count + fine_vertices(s.mesh.coarse_vertex_count)};
     s.direct = std::make_unique<DirectTransport>(*s.world, s.mesh, make_emitters(*s.scene), params, std::move(samples));
     s.coarse_area = s.indirect_area = vertex_areas(s.mesh);
     publish_mesh(s);

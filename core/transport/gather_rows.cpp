@@ -48,12 +48,16 @@ void find_buried(const World& world, const Mesh& mesh, const std::vector<glm::ve
     }
 }
 
-bool is_buried(const World& world, glm::vec3 origin, glm::vec3 normal) {
+LookAround look_around(const World& world, glm::vec3 origin, glm::vec3 normal) {
     const Frame frame(normal);
     int back_faces = 0;
-    for (std::uint32_t k = 0; k < burial_rays && back_faces <= most_back_faces; ++k)
-        back_faces += world.closest({origin, frame.world(cosine_direction(r2_point(k, {0, 0})))}).back_face;
-    return back_faces > most_back_faces;
+    float nearness = 0;
+    for (std::uint32_t k = 0; k < burial_rays; ++k) {
+        const Hit hit = world.closest({origin, frame.world(cosine_direction(r2_point(k, {0, 0})))});
+        back_faces += hit.back_face;
+        if (hit.any()) nearness += 1 / std::max(hit.t, 1e-20f);
+    }
+    return {back_faces > most_back_faces, nearness > 0 ? burial_rays / nearness : 1e30f};
 }
 
 GatherPass make_gather_pass(const Mesh& mesh, const Receivers& receivers) {

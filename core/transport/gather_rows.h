@@ -35,7 +35,11 @@ void find_buried(const World& world, const Mesh& mesh, const std::vector<glm::ve
                  std::uint32_t last, std::vector<std::uint8_t>& buried, Surroundings* around = nullptr);
 
 // The same for one place, from where its rays start.
-bool is_buried(const World& world, glm::vec3 origin, glm::vec3 normal);
+struct LookAround {
+    bool buried;
+    float distance; // to what is around, harmonic mean, m
+};
+LookAround look_around(const World& world, glm::vec3 origin, glm::vec3 normal);
 
 struct GatherPass {
     // receivers * rays_per_pass of each. The receiver each ray ended at, drawn among those of the vertices of the

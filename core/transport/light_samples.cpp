@@ -20,22 +20,27 @@ using Range = tbb::blocked_range<std::uint32_t>;
 using Feature = Eigen::Matrix<float, 6, 1>;
 constexpr float normal_scale = 1.5f;
 constexpr int most_read = 10;  // samples that a vertex may read
-constexpr float ridge = 0.05f; // of the plane's slopes, in squared cells
+constexpr float ridge = 0.04f; // of the plane's slopes, of the squared distance to the farthest sample read
 constexpr float least_weight = 0.02f;
 constexpr std::uint32_t most_tries = 8; // for a sample outside solids
 constexpr float wider = 1.25f;
+constexpr float close_cell = 1;               // of the distance to what is around: wider groups are cut
+constexpr std::uint32_t parts_of_a_group = 6; // that a cut makes, of a surface's two dimensions and what crosses it
+constexpr int most_cuts = 3;
 
 struct GroupKey {
     std::uint32_t object;
     glm::ivec3 place, look;
     bool back;
+    std::uint8_t level; // the cube's edge is cell / 2^level
     bool operator==(const GroupKey&) const = default;
 };
 struct GroupHash {
     std::size_t operator()(const GroupKey& key) const {
         std::uint64_t hash = 0x9e3779b97f4a7c15ull ^ key.object;
-        for (const int part : {key.place.x, key.place.y, key.place.z,
-                               key.look.x + 8 * key.look.y + 64 * key.look.z + (key.back ? 4096 : 0)}) {
+        for (const int part :
+             {key.place.x, key.place.y, key.place.z,
+              key.look.x + 8 * key.look.y + 64 * key.look.z + (key.back ? 4096 : 0) + (key.level << 13)}) {
             hash = (hash ^ static_cast<std::uint32_t>(part)) * 0xff51afd7ed558ccdull;
             hash ^= hash >> 32;
         }
@@ -47,16 +52,22 @@ std::uint32_t object_of(const Scene& scene, const MeshVertex& vertex) {
     return static_cast<std::uint32_t>(at(scene.geometry->surfaces[vertex.surface].object));
 }
 
+struct Grouping {
+    float cell, look;                // m; steps of the normal
+    std::vector<std::uint8_t> level; // of each vertex
+};
+
 // False when there are more than `most`.
-bool group(const Scene& scene, const Mesh& mesh, float cell, float look, std::uint32_t most, LightSamples& samples) {
+bool group(const Scene& scene, const Mesh& mesh, const Grouping& by, std::uint32_t most, LightSamples& samples) {
     std::unordered_map<GroupKey, std::uint32_t, GroupHash> known;
     samples.size.clear();
-    samples.cell = cell;
+    samples.cell = by.cell;
     samples.of_vertex.resize(mesh.coarse_vertex_count);
     for (std::uint32_t v = 0; v < mesh.coarse_vertex_count; ++v) {
         const MeshVertex& vertex = mesh.vertices[v];
-        const GroupKey key{object_of(scene, vertex), glm::ivec3(glm::floor(vertex.position / cell)),
-                           glm::ivec3(glm::round(look * vertex.normal)), vertex.back};
+        const float cubes = std::exp2(float(by.level[v])) / by.cell;
+        const GroupKey key{object_of(scene, vertex), glm::ivec3(glm::floor(vertex.position * cubes)),
+                           glm::ivec3(glm::round(by.look * vertex.normal)), vertex.back, by.level[v]};
         const auto [found, fresh] = known.try_emplace(key, static_cast<std::uint32_t>(samples.size.size()));
         if (fresh) {
             if (samples.size.size() == most) return false;
@@ -73,17 +84,18 @@ Feature feature_of(const MeshVertex& vertex, float cell) {
     return Feature(p.x, p.y, p.z, n.x, n.y, n.z);
 }
 
-void choose_samples(const Mesh& mesh, const World& world, const std::vector<glm::vec3>& origins,
-                    LightSamples& samples) {
+// What is around each sample, m, where a group has several vertices; else far.
+std::vector<float> choose_samples(const Mesh& mesh, const World& world, const std::vector<glm::vec3>& origins,
+                                  LightSamples& samples) {
     const auto groups = static_cast<std::uint32_t>(samples.size.size());
     std::vector<std::uint32_t> first(groups + 1, 0), member(samples.of_vertex.size());
     for (std::uint32_t g = 0; g < groups; ++g) first[g + 1] = first[g] + samples.size[g];
     std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
     for (std::uint32_t v = 0; v < samples.of_vertex.size(); ++v) member[next[samples.of_vertex[v]]++] = v;
     samples.vertex.resize(groups);
+    std::vector<float> distance(groups, 1e30f);
     tbb::parallel_for(Range(0, groups, 64), [&](const Range& range) {
         std::vector<std::pair<float, std::uint32_t>> nearest;
-        std::vector<std::uint8_t> buried(1);
         for (std::uint32_t g = range.begin(); g < range.end(); ++g) {
             samples.vertex[g] = member[first[g]];
             if (samples.size[g] == 1) continue;
@@ -97,13 +109,39 @@ void choose_samples(const Mesh& mesh, const World& world, const std::vector<glm:
             const auto tries = std::min(nearest.size(), std::size_t(most_tries));
             std::partial_sort(nearest.begin(), nearest.begin() + std::ptrdiff_t(tries), nearest.end());
             samples.vertex[g] = nearest[0].second;
-            for (std::size_t t = 0; t < tries; ++t)
-                if (!is_buried(world, origins[nearest[t].second], mesh.vertices[nearest[t].second].normal)) {
-                    samples.vertex[g] = nearest[t].second;
-                    break;
-                }
+            for (std::size_t t = 0; t < tries; ++t) {
+                const std::uint32_t v = nearest[t].second;
+                const LookAround around = look_around(world, origins[v], mesh.vertices[v].normal);
+                if (around.buried) continue;
+                samples.vertex[g] = v;
+                distance[g] = around.distance;
+                break;
+            }
         }
     });
+    return distance;
+}
+
+// Groups wider than what is around them is away, in a shelf or under a seat: there light changes from vertex to vertex
+// (Ward, Rubinstein & Clear 1988). Their vertices go one level down, the worst first, as far as `room` for more samples
+// goes; false when there is nothing to be cut.
+bool cut_groups(const LightSamples& samples, std::span<const float> distance, std::uint32_t room, Grouping& by) {
+    std::vector<std::uint8_t> level(samples.count(), 0);
+    for (std::uint32_t v = 0; v < samples.of_vertex.size(); ++v) level[samples.of_vertex[v]] = by.level[v];
+    std::vector<std::pair<float, std::uint32_t>> wide;
+    for (std::uint32_t g = 0; g < samples.count(); ++g)
+        if (const float edge = by.cell * std::exp2(-float(level[g])); edge > close_cell * distance[g])
+            wide.emplace_back(-edge / std::max(1e-20f, distance[g]), g);
+    std::sort(wide.begin(), wide.end());
+    std::vector<std::uint8_t> cut(samples.count(), 0);
+    std::uint32_t more = 0, cuts = 0;
+    for (const auto& [width, g] : wide) {
+        more += std::min(samples.size[g], parts_of_a_group) - 1;
+        if (more > room) break;
+        cut[g] = 1, ++cuts;
+    }
+    for (std::uint32_t v = 0; v < samples.of_vertex.size(); ++v) by.level[v] += cut[samples.of_vertex[v]];
+    return cuts > 0;
 }
 
 // Samples of one side of one object, searched by place and normal (Bentley 1975).
@@ -205,12 +243,12 @@ void read_plane(const Feature& at, std::span<const SampleTree::Near> near, Readi
     Feature mean = Feature::Zero();
     for (std::size_t k = 0; k < n; ++k) {
         const float fade = std::max(0.0f, 1 - near[k].distance2 / reach);
-        w[k] = (fade * fade + 1e-6f) / (near[k].distance2 + 1e-3f);
+        w[k] = (fade * fade + 1e-6f) / (near[k].distance2 + 1e-3f * reach);
         sum += w[k];
         mean += w[k] * (near[k].point->at - at);
     }
     mean /= sum;
-    Eigen::Matrix<float, 6, 6> spread = Eigen::Matrix<float, 6, 6>::Identity() * (ridge * sum);
+    Eigen::Matrix<float, 6, 6> spread = Eigen::Matrix<float, 6, 6>::Identity() * (ridge * reach * sum);
     for (std::size_t k = 0; k < n; ++k) {
         const Feature d = near[k].point->at - at - mean;
         spread += w[k] * d * d.transpose();
@@ -248,7 +286,7 @@ void add_readings(const Scene& scene, const Mesh& mesh, const World& world, cons
     tbb::parallel_for(Range(0, samples.count(), 64), [&](const Range& range) {
         for (std::uint32_t g = range.begin(); g < range.end(); ++g)
             if (const std::uint32_t v = samples.vertex[g]; !readers[side(v)].empty())
-                buried[g] = is_buried(world, origins[v], mesh.vertices[v].normal);
+                buried[g] = look_around(world, origins[v], mesh.vertices[v].normal).buried;
     });
     for (const bool inside : {false, true})
         for (std::uint32_t g = 0; g < samples.count(); ++g) {
@@ -304,7 +342,7 @@ std::uint32_t count_light_samples(const Scene& scene, float cell, std::uint32_t 
             const auto object =
                 static_cast<std::uint32_t>(at(geometry.surfaces[at(geometry.triangle_surface[t])].object));
             known.try_emplace(
-                {object, glm::ivec3(glm::floor(v.position / cell)), glm::ivec3(glm::round(2.0f * normal)), false});
+                {object, glm::ivec3(glm::floor(v.position / cell)), glm::ivec3(glm::round(2.0f * normal)), false, 0});
         }
     }
     return static_cast<std::uint32_t>(known.size());
@@ -314,9 +352,20 @@ LightSamples make_light_samples(const Scene& scene, const Mesh& mesh, const Worl
                                 const std::vector<glm::vec3>& origins, float cell, std::uint32_t most) {
     LightSamples samples;
     // First normals within about 30 degrees, then within 50, then wider cubes.
-    for (float look = 2; !group(scene, mesh, cell, look, most, samples); look = 1)
-        if (look == 1) cell *= wider;
-    choose_samples(mesh, world, origins, samples);
+    Grouping by{cell, 2, std::vector<std::uint8_t>(mesh.coarse_vertex_count, 0)};
+    for (; !group(scene, mesh, by, most / 2, samples); by.look = 1)
+        if (by.look == 1) by.cell *= wider;
+    std::vector<float> distance = choose_samples(mesh, world, origins, samples);
+    for (int cut = 0; cut < most_cuts; ++cut) {
+        const Grouping before = by;
+        if (!cut_groups(samples, distance, most - samples.count(), by)) break;
+        if (!group(scene, mesh, by, most, samples)) { // parts were more than thought
+            group(scene, mesh, before, most, samples);
+            choose_samples(mesh, world, origins, samples);
+            break;
+        }
+        distance = choose_samples(mesh, world, origins, samples);
+    }
     add_readings(scene, mesh, world, origins, samples);
     return samples;
 }
