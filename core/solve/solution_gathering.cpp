@@ -12,7 +12,9 @@ namespace lueur {
 namespace {
 
 constexpr double residual_target = 2e-4;             // |r| / |b|, worst channel
+constexpr double first_residual_target = 5e-3;       // of the first picture, whose rays know no more
 constexpr std::uint32_t most_gathering_sweeps = 400; // a system that needs more does not converge
+constexpr double smoothing_farthest = 3;             // coarse element sizes
 constexpr double ray_share = 0.7; // of the target error that the rays may take; interpolation has the rest
 
 using State = Solution::State;
@@ -65,13 +67,16 @@ ChannelField reflected_direct(const State& s) {
     return b;
 }
 
-// Equal-flux direct irradiance at all vertices: what the ray budget looks at.
-std::vector<float> equal_flux_direct(const State& s) {
-    std::vector<float> direct(s.mesh.vertices.size(), 0);
-    for (std::size_t v = 0; v < direct.size(); ++v)
-        for (std::size_t l = 0; l < s.direct->emitter_count(); ++l)
-            if (s.direct->emitters()[l].area > 0)
-                direct[v] += s.direct->at_vertex(static_cast<std::uint32_t>(v))[l] / s.direct->emitters()[l].area;
+SmoothedReceivers smoothed_receivers(const State& s) {
+    return {s.receivers.of_vertex, s.receivers.vertex, s.smoothing};
+}
+
+// Direct irradiance at all vertices of luminaires as guessed: what the ray budget looks at.
+std::vector<float> guessed_direct(const State& s) {
+    std::vector<float> direct;
+    direct.reserve(s.mesh.vertices.size());
+    for (std::uint32_t v = 0; v < s.mesh.vertices.size(); ++v)
+        direct.push_back(s.direct->guessed_light(s.direct->at_vertex(v)));
     return direct;
 }
 
@@ -114,12 +119,11 @@ void update_error(State& s) {
         for (std::size_t l = 0; l < exitance.size(); ++l) radiosity.direct[v] += static_cast<float>(d[l] * on_paint[l]);
     }
 
-    const std::vector<float> variance = ray_variances(s.passes, radiosity);
-    s.indirect_deviation.resize(s.receivers.of_vertex.size());
-    for (std::uint32_t v = 0; v < s.indirect_deviation.size(); ++v)
-        s.indirect_deviation[v] = std::sqrt(variance[s.receivers.of_vertex[v]]);
+    const SmoothedReceivers smoothed = smoothed_receivers(s);
+    s.indirect_deviation = smoothed.of(half_differences(s.passes, radiosity));
+    for (float& d : s.indirect_deviation) d = std::abs(d);
     const std::vector<float> areas = receiver_areas(s);
-    const double rays = ray_error(s.passes, radiosity, direct, areas);
+    const double rays = ray_error(s.passes, radiosity, direct, areas, smoothed);
     const double unsolved = gathering_missing_share(s, areas, direct);
     const double interpolation = s.direct->misfit();
     s.status.estimated_error =
@@ -165,6 +169,7 @@ void refresh_indirect(State& s) {
         for (int c = 0; c < s.channels(); ++c)
             s.indirect_irradiance[v][c] = s.gathered_direct[i][c] + s.system.gathered()[i][c];
     }
+    smooth(s.smoothing, s.indirect_irradiance);
 }
 
 // New sources, paints or rays: one reflection of direct light is gathered anew, then the system holds them.
@@ -175,7 +180,12 @@ void gather_direct(State& s, bool new_rays) {
     s.indirect_irradiance = ChannelField(s.mesh.indirect_vertex_count, s.channels());
     apply_rows(s.passes, RayEnds::fine, reflected_direct(s), s.gathered_direct, never);
     if (!s.solving || s.system.count() != n) s.system = GatherSystem(n, s.channels(), receiver_areas(s));
-    if (new_rays) s.system.set_rows(s.passes);
+    if (new_rays) {
+        s.system.set_rows(s.passes);
+        s.smoothing = make_smoothing(s.mesh, s.mesh.indirect_elements, s.buried, s.indirect_distance,
+                                     smoothing_reach(static_cast<std::uint32_t>(s.passes.size()) * rays_per_pass),
+                                     static_cast<float>(smoothing_farthest * s.element_size));
+    }
     s.system.set_sources(rho_of_receivers(s), s.gathered_direct);
     s.solving = true;
     s.status.sweeps = 0;
@@ -194,7 +204,7 @@ void plan_passes(State& s) {
     const std::uint32_t now = static_cast<std::uint32_t>(s.passes.size());
     if (s.rays_planned || now < s.passes_wanted) return;
     const double target = ray_share * s.scene->solve.target_error;
-    const double error = grey_ray_error(s.passes, s.receivers.vertex, equal_flux_direct(s), receiver_areas(s));
+    const double error = grey_ray_error(s.passes, guessed_direct(s), receiver_areas(s), smoothed_receivers(s));
     if (error <= target || now >= most_passes(s)) {
         s.rays_planned = true;
         return;
@@ -247,7 +257,8 @@ void trace_gathering_rows(State& s, const std::atomic<bool>& cancel) {
 void step_gathering(State& s, const std::atomic<bool>& cancel) {
     s.status.stage = SolveStage::solving;
     if (s.status.sweeps == 0 && has_no_finite_solution(s)) return fail(s, no_finite_solution);
-    if (s.system.relative_residual() > residual_target) {
+    const double target = s.refined ? residual_target : first_residual_target;
+    if (s.system.relative_residual() > target) {
         if (!s.system.sweep(s.passes, cancel)) return;
         ++s.status.sweeps;
         refresh_indirect(s);
@@ -256,7 +267,7 @@ void step_gathering(State& s, const std::atomic<bool>& cancel) {
     }
     s.status.unshot_share = unshot_flux_share(s);
     s.status.residual = s.system.relative_residual();
-    if (s.system.relative_residual() > residual_target) return;
+    if (s.system.relative_residual() > target) return;
     update_error(s);
     if (!s.refined) {
         s.phase = SolvePhase::refine;

@@ -15,6 +15,7 @@
 #include "core/solve/hierarchy_view.h"
 #include "core/solve/patch_solve.h"
 #include "core/solve/shooting.h"
+#include "core/solve/smoothing.h"
 #include "core/solve/solution.h"
 #include "core/solve/wavelengths_choice.h"
 #include "core/transport/direct_transport.h"
@@ -53,9 +54,11 @@ struct Solution::State {
     // of indirect light.
     std::vector<glm::vec3> origins;
     std::vector<std::uint8_t> buried;
-    std::vector<float> indirect_area; // m^2
-    Receivers receivers;              // who gathers for them
-    Surroundings around;              // of coarse vertices
+    std::vector<float> indirect_area;     // m^2
+    std::vector<float> indirect_distance; // m, to what is around, harmonic mean
+    Smoothing smoothing;                  // of what is gathered there
+    Receivers receivers;                  // who gathers for them
+    Surroundings around;                  // of coarse vertices
     Overlap overlap;
     std::unique_ptr<IndirectRefinement> indirect_refinement; // cuts `mesh` first
     struct IndirectLevel {                                   // what came of it
@@ -63,6 +66,7 @@ struct Solution::State {
         std::vector<glm::uvec3> elements;
         std::vector<glm::vec3> origins;
         std::vector<std::uint8_t> buried;
+        std::vector<float> distance;
     };
     std::optional<IndirectLevel> indirect_level; // not in use yet: rows that are there refer to the coarse one
     std::vector<GatherPass> passes;

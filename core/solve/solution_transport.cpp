@@ -29,7 +29,8 @@ bool refine_indirect(State& s, const std::atomic<bool>& cancel) {
     if (!done) return false;
     s.indirect_level.emplace(static_cast<std::uint32_t>(s.mesh.vertices.size()),
                              static_cast<std::uint32_t>(s.mesh.nodes.size()), s.mesh.elements,
-                             s.indirect_refinement->origins(), s.indirect_refinement->buried());
+                             s.indirect_refinement->origins(), s.indirect_refinement->buried(),
+                             s.indirect_refinement->distance());
     s.indirect_refinement.reset();
     return true;
 }
@@ -42,6 +43,7 @@ void take_indirect_level(State& s) {
     s.indirect_area = vertex_areas(s.mesh, s.mesh.indirect_elements, level.vertices);
     s.origins.insert(s.origins.end(), level.origins.begin() + s.mesh.coarse_vertex_count, level.origins.end());
     s.buried.insert(s.buried.end(), level.buried.begin() + s.mesh.coarse_vertex_count, level.buried.end());
+    s.indirect_distance = std::move(level.distance);
     add_receivers(level.vertices, s.buried, s.receivers);
     s.status.receivers = s.receivers.count();
 }
@@ -92,6 +94,7 @@ void step_burial(State& s, const std::atomic<bool>& cancel) {
             find_buried(*s.world, s.mesh, s.origins, first, last, s.buried, &s.around);
         }))
         return;
+    s.indirect_distance = s.around.distance;
     if (!find_overlap(s.mesh, *s.world, s.buried, cancel, s.overlap)) return;
     s.status.rays += std::uint64_t(s.mesh.coarse_vertex_count) * burial_rays + s.mesh.coarse_element_count;
     s.receivers = make_receivers(*s.scene, s.mesh, s.buried, static_cast<float>(receiver_cell * s.element_size));
