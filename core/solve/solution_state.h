@@ -70,9 +70,11 @@ struct Solution::State {
     };
     std::optional<IndirectLevel> indirect_level; // not in use yet: rows that are there refer to the coarse one
     std::vector<GatherPass> passes;
-    bool pass_open = false;          // the last pass is being traced
-    std::uint32_t passes_wanted = 1; // from the geometry alone: see passes_for
-    bool rays_planned = false;       // passes_wanted will not grow any more
+    std::vector<std::vector<RayHit>> kept_hits; // of each pass, while the mesh it was traced on still grows
+    bool pass_open = false;                     // the last pass is being traced
+    std::uint32_t passes_wanted = 1;            // from the geometry alone: see passes_for
+    bool only_probes_left = false;              // gathering is solved, and asks how right it is
+    bool rays_planned = false;                  // passes_wanted will not grow any more
     bool refined = false;
     double element_size = 0;        // m, longest coarse edge in use
     std::vector<float> coarse_area; // m^2 of each coarse vertex

@@ -104,21 +104,31 @@ void step_burial(State& s, const std::atomic<bool>& cancel) {
     start_solver(s);
 }
 
+bool ask_probes(State& s, const std::atomic<bool>& cancel) {
+    if (s.probes.complete()) return true;
+    const std::vector<std::uint8_t> buried = s.all_buried();
+    if (s.probes.points.empty())
+        place_probes(*s.world, s.mesh, *s.direct, buried, probe_count, s.scene->solve.seed, s.probes);
+    if (!trace_probes(*s.world, s.mesh, *s.direct, buried, s.scene->solve.seed, cancel, s.probes)) return false;
+    s.status.rays +=
+        s.probes.points.size() * (ErrorProbes::rays + ErrorProbes::shadow_rays * s.direct->emitter_count());
+    return true;
+}
+
 void step_refine(State& s, const std::atomic<bool>& cancel) {
     s.status.stage = SolveStage::direct;
     const std::size_t before = s.mesh.vertices.size();
     const bool done = refine_indirect(s, cancel) && s.direct->light_vertices(cancel) && s.direct->refine(cancel);
     if (s.mesh.vertices.size() != before) publish_mesh(s);
     if (!done) return;
-    const std::vector<std::uint8_t> buried = s.all_buried();
-    if (s.probes.points.empty())
-        place_probes(*s.world, s.mesh, *s.direct, buried, probe_count, s.scene->solve.seed, s.probes);
-    if (!trace_probes(*s.world, s.mesh, *s.direct, buried, s.scene->solve.seed, cancel, s.probes)) return;
-    s.status.rays +=
-        s.probes.points.size() * (ErrorProbes::rays + ErrorProbes::shadow_rays * s.direct->emitter_count());
+    // Gathering asks its probes last: they tell how wrong the light is, and make none of it.
+    if (s.solver() != SolverKind::gathering && !ask_probes(s, cancel)) return;
     take_indirect_level(s);
     s.refined = true;
     // The first picture's rays ended at vertices of the mesh before.
+    s.kept_hits.clear();
+    for (GatherPass& pass : s.passes) s.kept_hits.push_back(std::move(pass.hits));
+    if (s.pass_open) s.kept_hits.pop_back();
     s.passes.clear();
     start_solver(s);
 }

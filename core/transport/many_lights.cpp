@@ -39,12 +39,22 @@ VisibilityDetail detail_of(float counts) {
     return counts > whole_cells_from ? VisibilityDetail::whole_cells : VisibilityDetail::probes;
 }
 
+// The middle where it faces the receiver; of a ball or a box a point that does, for it hides its own far side.
+glm::vec3 facing_point(const Emitter& emitter, glm::vec3 origin, glm::vec3 normal) {
+    const EmitterPoint* best = &emitter.middle;
+    float most = emitter_kernel(origin, normal, emitter.middle);
+    if (most <= 0)
+        for (const EmitterPoint& p : emitter.probes)
+            if (const float kernel = emitter_kernel(origin, normal, p); kernel > most) most = kernel, best = &p;
+    return best->position;
+}
+
 // Whether their middles are seen.
-void look_at_middles(const World& world, glm::vec3 origin, std::span<Candidate> candidates) {
+void look_at_middles(const World& world, glm::vec3 origin, glm::vec3 normal, std::span<Candidate> candidates) {
     std::array<glm::vec3, World::packet> targets;
     for (std::size_t first = 0; first < candidates.size(); first += World::packet) {
         const std::span<Candidate> some = candidates.subspan(first, std::min(World::packet, candidates.size() - first));
-        for (std::size_t k = 0; k < some.size(); ++k) targets[k] = some[k].emitter->middle.position;
+        for (std::size_t k = 0; k < some.size(); ++k) targets[k] = facing_point(*some[k].emitter, origin, normal);
         const std::uint32_t hidden = world.hidden(origin, std::span(targets).first(some.size()));
         for (std::size_t k = 0; k < some.size(); ++k) some[k].seen = !(hidden >> k & 1);
     }
@@ -68,7 +78,7 @@ void light_by_sample(const World& world, glm::vec3 origin, glm::vec3 normal, std
         while (next < tail_rays && before > all * (float(next) + 0.5f) / tail_rays) drawn[next++] = c;
     }
     while (next < tail_rays) drawn[next++] = tail.back();
-    look_at_middles(world, origin, drawn);
+    look_at_middles(world, origin, normal, drawn);
     const auto seen = static_cast<float>(std::ranges::count(drawn, true, &Candidate::seen));
     const float share = seen / tail_rays, believed = (seen + 1) / (tail_rays + 2);
     // Variance of the sum of all of them, shared among them as if each erred by itself.
@@ -121,7 +131,7 @@ std::uint64_t direct_form_factors(const World& world, std::span<const Emitter> e
             rays += tail_rays;
             shining = shining.first(end);
         }
-        look_at_middles(world, origin, shining);
+        look_at_middles(world, origin, normal, shining);
         rays += shining.size();
         visible = shadow_share * all;
         for (const Candidate& c : shining) visible += c.seen ? c.light : 0;
