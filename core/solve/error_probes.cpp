@@ -21,7 +21,7 @@ std::vector<float> direct_uncertainty(const Mesh& mesh, const DirectTransport& d
             if (const float area = direct.emitters()[share.emitter].area; area > 0)
                 at_rows[r] += share.deviation / area;
     direct.read_rows(at_rows, 1, uncertainty);
-    for (const float light : direct.equal_flux_light()) mean += double(light);
+    for (const float light : direct.guessed_light()) mean += double(light);
     mean /= std::max<double>(1, double(uncertainty.size()));
     for (float& u : uncertainty) u = mean > 0 ? static_cast<float>(u / mean) : 0;
     return uncertainty;

@@ -12,7 +12,10 @@ namespace lueur {
 namespace {
 
 constexpr double residual_target = 2e-4;             // |r| / |b|, worst channel
+constexpr double first_residual_target = 5e-3;       // of the first picture, whose rays know no more
 constexpr std::uint32_t most_gathering_sweeps = 400; // a system that needs more does not converge
+constexpr std::uint32_t first_passes = 2;            // before the mesh is refined
+constexpr double smoothing_farthest = 3;             // coarse element sizes
 constexpr double ray_share = 0.7; // of the target error that the rays may take; interpolation has the rest
 
 using State = Solution::State;
@@ -60,6 +63,10 @@ ChannelField reflected_direct(const State& s) {
     return b;
 }
 
+SmoothedReceivers smoothed_receivers(const State& s) {
+    return {s.receivers.of_vertex, s.receivers.vertex, s.smoothing};
+}
+
 // Of all the light that arrives in the end, the share that is still missing: each unit of the residual is reflected on,
 // 1 / (1 - rho_ave) times if nothing is lost.
 double gathering_missing_share(const State& s, const std::vector<float>& areas, const std::vector<float>& direct) {
@@ -96,12 +103,11 @@ void update_error(State& s) {
         }
     }
 
-    const std::vector<float> variance = ray_variances(s.passes, radiosity);
-    s.indirect_deviation.resize(s.receivers.of_vertex.size());
-    for (std::uint32_t v = 0; v < s.indirect_deviation.size(); ++v)
-        s.indirect_deviation[v] = std::sqrt(variance[s.receivers.of_vertex[v]]);
+    const SmoothedReceivers smoothed = smoothed_receivers(s);
+    s.indirect_deviation = smoothed.of(half_differences(s.passes, radiosity));
+    for (float& d : s.indirect_deviation) d = std::abs(d);
     const std::vector<float> areas = receiver_areas(s);
-    const double rays = ray_error(s.passes, radiosity, direct, areas);
+    const double rays = ray_error(s.passes, radiosity, direct, areas, smoothed);
     const double unsolved = gathering_missing_share(s, areas, direct);
     const double interpolation = s.direct->misfit();
     s.status.estimated_error =
@@ -157,6 +163,17 @@ void refresh_indirect(State& s) {
                 for (const LightSamples::Reading& r : samples.readings_of(v)) add(v, r.sample, r.weight);
         }
     });
+    smooth(s.smoothing, s.indirect_irradiance);
+}
+
+// What reads samples is smooth already.
+void renew_smoothing(State& s) {
+    std::vector<std::uint8_t> left_out = s.buried;
+    for (std::uint32_t v = 0; v < left_out.size(); ++v)
+        left_out[v] = left_out[v] || !s.direct->samples().stands_alone(v);
+    s.smoothing = make_smoothing(s.mesh, s.mesh.indirect_elements, left_out, s.indirect_distance,
+                                 smoothing_reach(static_cast<std::uint32_t>(s.passes.size()) * rays_per_pass),
+                                 static_cast<float>(smoothing_farthest * s.element_size));
 }
 
 // New sources, paints or rays: one reflection of direct light is gathered anew, then the system holds them.
@@ -167,7 +184,7 @@ void gather_direct(State& s, bool new_rays) {
     s.indirect_irradiance = ChannelField(s.mesh.indirect_vertex_count, s.channels());
     apply_rows(s.passes, RayEnds::fine, reflected_direct(s), s.gathered_direct, never);
     if (!s.solving || s.system.count() != n) s.system = GatherSystem(n, s.channels(), receiver_areas(s));
-    if (new_rays) s.system.set_rows(s.passes);
+    if (new_rays) s.system.set_rows(s.passes), renew_smoothing(s);
     s.system.set_sources(rho_of_receivers(s), s.gathered_direct);
     s.solving = true;
     s.status.sweeps = 0;
@@ -186,7 +203,7 @@ void plan_passes(State& s) {
     const std::uint32_t now = static_cast<std::uint32_t>(s.passes.size());
     if (s.rays_planned || now < s.passes_wanted) return;
     const double target = ray_share * s.scene->solve.target_error;
-    const double error = grey_ray_error(s.passes, s.receivers.vertex, s.direct->equal_flux_light(), receiver_areas(s));
+    const double error = grey_ray_error(s.passes, s.direct->guessed_light(), receiver_areas(s), smoothed_receivers(s));
     if (error <= target || now >= most_passes(s)) {
         s.rays_planned = true;
         return;
@@ -200,6 +217,7 @@ void plan_passes(State& s) {
 } // namespace
 
 void start_gathering(State& s, bool same_sources) {
+    s.only_probes_left = false;
     if (std::exchange(s.pass_open, false)) s.passes.pop_back(); // half traced: again
     if (s.passes.empty()) {
         // The number of rays follows from the settings and the geometry, never from what was there before.
@@ -216,30 +234,50 @@ void start_gathering(State& s, bool same_sources) {
 void trace_gathering_rows(State& s, const std::atomic<bool>& cancel) {
     s.status.stage = SolveStage::gathering_rays;
     if (!s.pass_open) {
-        s.passes.push_back(make_gather_pass(s.mesh, s.receivers));
+        // Rays of the level before end elsewhere now, and are not traced again; on this one they are kept in turn, if
+        // there is another to come.
+        std::vector<RayHit> hits;
+        const std::size_t rays = std::size_t(s.receivers.count()) * rays_per_pass;
+        if (s.passes.size() < s.kept_hits.size()) hits = std::move(s.kept_hits[s.passes.size()]);
+        if (!s.refined) hits.resize(rays);
+        s.passes.push_back(make_gather_pass(s.mesh, s.receivers, std::move(hits)));
         s.cursor = 0;
         s.pass_open = true;
     }
     const std::uint32_t pass = static_cast<std::uint32_t>(s.passes.size()) - 1;
     const std::vector<std::uint8_t> buried = s.all_buried();
-    if (!run_slice(s.cursor, s.receivers.count(), 64, cancel, [&](std::uint32_t first, std::uint32_t last) {
-            trace_gather_rays(*s.world, s.mesh, s.origins, s.receivers, buried, s.scene->solve.seed, pass, first, last,
-                              s.passes.back());
-        }))
-        return;
+    std::atomic<std::uint64_t> traced{0};
+    const bool done =
+        run_slice(s.cursor, s.receivers.count(), 64, cancel, [&](std::uint32_t first, std::uint32_t last) {
+            traced.fetch_add(trace_gather_rays(*s.world, s.mesh, s.origins, s.receivers, buried, s.scene->solve.seed,
+                                               pass, first, last, s.passes.back()),
+                             std::memory_order_relaxed);
+        });
+    s.status.rays += traced.load();
+    if (!done) return;
     s.pass_open = false;
-    s.status.rays += std::uint64_t(s.receivers.count()) * rays_per_pass;
+    if (s.refined) s.passes.back().hits = {};
     s.status.rays_per_receiver = static_cast<std::uint32_t>(s.passes.size()) * rays_per_pass;
     s.status.row_entries = std::uint64_t(s.receivers.count()) * s.status.rays_per_receiver;
     if (s.passes.size() < s.passes_wanted) return;
+    if (s.passes.size() < s.kept_hits.size()) { // seen already, on the level before: no picture of them
+        renew_smoothing(s);
+        plan_passes(s);
+        if (s.passes.size() < s.passes_wanted) return;
+    }
     gather_direct(s, true);
     s.phase = SolvePhase::solve;
 }
 
 void step_gathering(State& s, const std::atomic<bool>& cancel) {
     s.status.stage = SolveStage::solving;
+    if (s.only_probes_left) {
+        if (ask_probes(s, cancel)) settle(s);
+        return;
+    }
     if (s.status.sweeps == 0 && has_no_finite_solution(s)) return fail(s, no_finite_solution);
-    if (s.system.relative_residual() > residual_target) {
+    const double target = s.refined ? residual_target : first_residual_target;
+    if (s.system.relative_residual() > target) {
         if (!s.system.sweep(s.passes, cancel)) return;
         ++s.status.sweeps;
         refresh_indirect(s);
@@ -248,10 +286,14 @@ void step_gathering(State& s, const std::atomic<bool>& cancel) {
     }
     s.status.unshot_share = unshot_flux_share(s);
     s.status.residual = s.system.relative_residual();
-    if (s.system.relative_residual() > residual_target) return;
+    if (s.system.relative_residual() > target) return;
     update_error(s);
-    if (!s.refined) {
-        s.phase = SolvePhase::refine;
+    if (!s.refined) { // first what tells most: rays, as long as they are few, then shadows' edges and contacts
+        if (s.passes.size() < first_passes) {
+            s.passes_wanted = std::min(first_passes, 2 * s.passes_wanted);
+            s.phase = SolvePhase::transport;
+        } else
+            s.phase = SolvePhase::refine;
         return;
     }
     plan_passes(s);
@@ -259,7 +301,7 @@ void step_gathering(State& s, const std::atomic<bool>& cancel) {
         s.phase = SolvePhase::transport;
         return;
     }
-    settle(s);
+    s.only_probes_left = true;
 }
 
 double gathering_progress(const State& s) {

@@ -12,6 +12,13 @@
 
 namespace lueur {
 
+namespace {
+
+constexpr float small_size = 0.25f;     // of the coarse element size: what is smaller counts by its area
+constexpr float long_edge_share = 0.4f; // of the coarse element size: longer edges are looked at in any case
+
+} // namespace
+
 DirectTransport::DirectTransport(const World& world, Mesh& mesh, std::vector<Emitter> emitters,
                                  const DirectParams& params, LightSamples samples)
     : world_(world)
@@ -20,7 +27,7 @@ DirectTransport::DirectTransport(const World& world, Mesh& mesh, std::vector<Emi
     , params_(params)
     , samples_(std::move(samples))
     , edges_(mesh) {
-    for (const Emitter& e : emitters_) weight_.push_back(e.area > 0 ? 1 / e.area : 0);
+    weight_ = guessed_exitances(emitters_);
     buried_.assign(mesh_.vertices.size(), 0);
     rows_.resize(mesh_.vertices.size() - sampled_vertices() + samples_.count());
     follow_rows();
@@ -34,15 +41,16 @@ void DirectTransport::follow_rows() {
     for (std::uint32_t v = 0; v < area.size(); ++v)
         row_area_[v < sampled_vertices() ? samples_.of_vertex[v] : row_of(v)] += area[v];
     std::vector<float> at_rows;
-    for (const DirectRow& row : rows_) at_rows.push_back(equal_flux_light(row));
-    equal_flux_.resize(mesh_.vertices.size());
-    read_rows(at_rows, 1, equal_flux_);
+    for (const DirectRow& row : rows_) at_rows.push_back(guessed_light(row));
+    guessed_.resize(mesh_.vertices.size());
+    read_rows(at_rows, 1, guessed_);
 }
 
 // size: m, across what this light stands for.
 void DirectTransport::light(glm::vec3 origin, glm::vec3 normal, float size, float* factors, float* deviations) const {
-    const float share = params_.element_size > 0 ? std::min(1.0f, size / params_.element_size) : 1;
-    rays_.fetch_add(direct_form_factors(world_, emitters_, origin, normal, share, factors, deviations),
+    const float part = params_.element_size > 0 ? std::min(1.0f, size / (small_size * params_.element_size)) : 1;
+    const float share = part * part;
+    rays_.fetch_add(direct_form_factors(world_, emitters_, weight_, origin, normal, share, factors, deviations),
                     std::memory_order_relaxed);
 }
 
@@ -60,7 +68,7 @@ DirectRow DirectTransport::row_at(glm::vec3 origin, glm::vec3 normal, float size
     return row;
 }
 
-float DirectTransport::equal_flux_light(const DirectRow& row) const {
+float DirectTransport::guessed_light(const DirectRow& row) const {
     float sum = 0;
     for (const DirectShare& share : row) sum += weight_[share.emitter] * share.factor;
     return sum;
@@ -121,7 +129,7 @@ bool DirectTransport::light_vertices(const std::atomic<bool>& cancel) {
             const std::uint32_t v = vertex_of(r);
             rows_[r] = row_at(origins_[v], mesh_.vertices[v].normal, std::sqrt(row_area_[r]));
             buried_[v] = 0;
-            if (equal_flux_light(rows_[r]) == 0) find_buried(world_, mesh_, origins_, v, v + 1, buried_);
+            if (guessed_light(rows_[r]) == 0) find_buried(world_, mesh_, origins_, v, v + 1, buried_);
         }
     });
     if (!done) return false;
@@ -130,8 +138,8 @@ bool DirectTransport::light_vertices(const std::atomic<bool>& cancel) {
     followed_rows_ = count;
     if (floor_ == 0 && count > 0) {
         double sum = 0;
-        for (const float light : equal_flux_) sum += light;
-        floor_ = static_cast<float>(0.25 * sum / double(equal_flux_.size())); // darker: a relative error is not seen
+        for (const float light : guessed_) sum += light;
+        floor_ = static_cast<float>(0.25 * sum / double(guessed_.size())); // darker: a relative error is not seen
         spread_deviations();
     }
     return true;
@@ -139,9 +147,15 @@ bool DirectTransport::light_vertices(const std::atomic<bool>& cancel) {
 
 // Edges shorter than a group is wide, between vertices that read samples, are too short to be looked at.
 void DirectTransport::begin_level() {
-    edges_.collect(params_.smallest_edge, [this](std::uint32_t a, std::uint32_t b) {
-        return samples_.stands_alone(a) || samples_.stands_alone(b) ||
-               glm::distance(mesh_.vertices[a].position, mesh_.vertices[b].position) > samples_.cell;
+    // A short edge whose ends agree hides no more than a shadow thinner than itself; one shorter than a group is wide,
+    // between vertices that read samples, is not looked at.
+    const float long_edge = long_edge_share * params_.element_size;
+    edges_.collect(params_.smallest_edge, [&](std::uint32_t a, std::uint32_t b) {
+        if (buried_[a] && buried_[b]) return false;
+        const float length = glm::distance(mesh_.vertices[a].position, mesh_.vertices[b].position);
+        if (!samples_.stands_alone(a) && !samples_.stands_alone(b) && length <= samples_.cell) return false;
+        const float at_a = guessed_[a], at_b = guessed_[b];
+        return length > long_edge || std::abs(at_a - at_b) > params_.tolerance * std::max({at_a, at_b, floor_});
     });
     edge_cursor_ = 0;
     edge_rows_.assign(edges_.edges().size(), {});
@@ -151,8 +165,8 @@ void DirectTransport::split_bent() {
     std::vector<float> bent(edges_.edges().size(), 0); // the misfit where it is too large
     for (std::size_t e = 0; e < bent.size(); ++e) {
         const EdgeRefinement::Edge& edge = edges_.edges()[e];
-        const float here = equal_flux_light(edge_rows_[e]);
-        const float guess = 0.5f * (equal_flux_[edge.a] + equal_flux_[edge.b]);
+        const float here = guessed_light(edge_rows_[e]);
+        const float guess = 0.5f * (guessed_[edge.a] + guessed_[edge.b]);
         const float scale = std::max({here, guess, floor_});
         const float misfit = scale > 0 ? std::abs(here - guess) / scale : 0;
         const bool inside = buried_[edge.a] && buried_[edge.b];
@@ -173,8 +187,8 @@ void DirectTransport::split_bent() {
                               rows_[r] = looked_at != no_index
                                              ? std::move(edge_rows_[looked_at])
                                              : row_at(origins_[v], mesh_.vertices[v].normal, std::sqrt(row_area_[r]));
-                              equal_flux_[v] = equal_flux_light(rows_[r]);
-                              if (equal_flux_[v] == 0) find_buried(world_, mesh_, origins_, v, v + 1, buried_);
+                              guessed_[v] = guessed_light(rows_[r]);
+                              if (guessed_[v] == 0) find_buried(world_, mesh_, origins_, v, v + 1, buried_);
                           }
                       });
     row_cursor_ = followed_rows_ = row_count();

@@ -1,7 +1,7 @@
 // Direct light at the vertices of a mesh that refines itself where direct light bends: shadow edges, contacts, places
 // near a lamp.
 //
-// Refinement looks at geometry only (all luminaires as if they gave the same flux), so that no edit of a lamp or a
+// Refinement looks at geometry only (luminaires as guessed_exitances has them), so that no edit of a lamp or a
 // paint changes the mesh, and a solution after edits is the solution of the same scene opened afresh.
 //
 // Kept in rows: of the luminaires that a place sees, few of a hall's hundreds. Rows are those of the samples of the
@@ -55,8 +55,8 @@ public:
     std::size_t lit_vertices() const { return buried_.size(); } // that it knows of
     std::size_t emitter_count() const { return emitters_.size(); }
     const std::vector<Emitter>& emitters() const { return emitters_; }
-    // Irradiance at all vertices, were all luminaires of the same flux.
-    const std::vector<float>& equal_flux_light() const { return equal_flux_; }
+    // Irradiance at all vertices, were the luminaires as guessed (guessed_exitances).
+    const std::vector<float>& guessed_light() const { return guessed_; }
     const LightSamples& samples() const { return samples_; }
     const std::vector<DirectRow>& rows() const { return rows_; }
     std::uint32_t row_count() const { return static_cast<std::uint32_t>(rows_.size()); }
@@ -88,7 +88,7 @@ public:
 private:
     void light(glm::vec3 origin, glm::vec3 normal, float size, float* factors, float* deviations) const;
     DirectRow row_at(glm::vec3 origin, glm::vec3 normal, float size) const;
-    float equal_flux_light(const DirectRow& row) const;
+    float guessed_light(const DirectRow& row) const;
     void follow_rows(); // what all vertices read of them
     void spread_deviations();
     void begin_level();
@@ -109,10 +109,10 @@ private:
     LightSamples samples_;
     EdgeRefinement edges_; // of this level, and their D:
     std::vector<DirectRow> edge_rows_;
-    std::vector<float> weight_; // exitance of each emitter at equal flux
+    std::vector<float> weight_; // guessed_exitances
     std::vector<DirectRow> rows_;
-    std::vector<float> row_area_;   // m^2 that each row stands for
-    std::vector<float> equal_flux_; // of each vertex
+    std::vector<float> row_area_; // m^2 that each row stands for
+    std::vector<float> guessed_;  // of each vertex
     std::vector<std::uint8_t> buried_;
     std::vector<glm::vec3> origins_;
     std::uint32_t sketch_cursor_ = 0, row_cursor_ = 0, followed_rows_ = 0;

@@ -130,7 +130,8 @@ VisibleShare visible_share(const World& world, const Emitter& emitter, glm::vec3
     int cells = 1; // along an edge of each triangle
     while (cells < lattice && static_cast<int>(emitter.triangles.size()) * cells * cells < fewest_cells) cells *= 2;
     const int size = lattice / cells;
-    const int finest = std::max(1, size >> static_cast<int>(detail));
+    const int cuts = detail == VisibilityDetail::two_cuts ? 2 : detail == VisibilityDetail::one_cut ? 1 : 0;
+    const int finest = std::max(1, size >> cuts);
     double visible = 0, all = 0, variance = 0;
     for (const EmitterTriangle& t : emitter.triangles) {
         if (glm::dot(origin - t.corners[0], t.normal) <= 0) continue; // behind it
