@@ -292,6 +292,7 @@ TEST(EditTimes, AreThoseOfASceneThatSettles) {
     ASSERT_TRUE(times);
     EXPECT_GT(times->reflectance, 0);
     EXPECT_GT(times->dimmer, 0);
+    EXPECT_GT(times->spectrum, 0);
     EXPECT_FALSE(edit_times(test::small_room(), 1e-9, test::never)) << "no time";
     const std::atomic<bool> always{true};
     EXPECT_FALSE(edit_times(test::small_room(), 60, always));

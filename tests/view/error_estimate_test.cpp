@@ -24,7 +24,7 @@ namespace {
 void expect_calibrated(const Solution& solution, const char* what) {
     const auto field = solution.field();
     ASSERT_EQ(field->error.size(), field->irradiance_xyz.size());
-    const auto points = test::true_vertices(solution, false, 250, 2048, 21);
+    const auto points = test::true_vertices(solution, false, 250, 1024, 21);
     const test::ErrorVerdict verdict = test::judge_vertices(solution, *field, points);
     printf("%s: true %.2f %%, estimated %.2f %%, %.1f %% inside\n", what, 100 * verdict.truth, 100 * verdict.estimate,
            100 * verdict.covered);
