@@ -156,9 +156,7 @@ void read_direct(const Solution::State& s, const std::vector<std::uint8_t>& show
             for (const DirectShare& share : s.direct->rows()[r])
                 for (int k = 0; k < at_rows.stride; ++k) at_rows[r][k] += share.factor * exitance[share.emitter][k];
     });
-    ChannelField direct(static_cast<std::uint32_t>(s.mesh.vertices.size()), s.channels());
-    s.direct->read_rows(at_rows.values, static_cast<std::size_t>(at_rows.stride), direct.values);
-    for (std::size_t i = 0; i < direct.values.size(); ++i) irradiance.values[i] += direct.values[i];
+    s.direct->read_rows(at_rows.values, static_cast<std::size_t>(at_rows.stride), irradiance.values);
 }
 
 std::shared_ptr<const Field> compose_field(const Solution::State& s) {

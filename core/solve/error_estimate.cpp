@@ -377,10 +377,13 @@ void estimate_error(const State& s, Field& field) {
     field.interpolation_error.assign(count, 0);
     field.relative_error.assign(count, 0);
     if (count == 0 || !s.direct || s.phase == SolvePhase::mesh) return;
+    const bool sketched = s.phase == SolvePhase::sketch || s.phase == SolvePhase::light;
+    if (sketched && !s.is_traced())
+        return know_nothing(
+            error_light(s, make_error_mesh(s.mesh, solved_vertices(s), s.all_buried(), s.buried, false), field), field);
     const ErrorMesh& mesh = error_mesh_of(s);
     const ErrorLight light = error_light(s, mesh, field);
     if (s.is_traced()) return estimate_traced_error(s, mesh, light, field);
-    if (s.phase == SolvePhase::sketch || s.phase == SolvePhase::light) return know_nothing(light, field);
     const Model model = model_of(s, mesh, light);
     const std::vector<Residual> probes = residuals(s, light, model);
 

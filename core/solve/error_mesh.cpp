@@ -105,7 +105,7 @@ std::vector<float> Bends::neighbour_differences(std::span<const float> value) co
 }
 
 ErrorMesh make_error_mesh(const Mesh& mesh, std::uint32_t level, std::vector<std::uint8_t> buried,
-                          const std::vector<std::uint8_t>& buried_coarse) {
+                          const std::vector<std::uint8_t>& buried_coarse, bool with_bends) {
     ErrorMesh made;
     made.element_count = mesh.elements.size();
     made.level = level;
@@ -117,6 +117,7 @@ ErrorMesh make_error_mesh(const Mesh& mesh, std::uint32_t level, std::vector<std
             for (int k = 0; k < 3; ++k) made.rim[e[k]] = made.buried[e[k]];
     for (std::size_t v = 0; v < made.area.size(); ++v)
         if (!made.buried[v]) made.seen_area += made.area[v];
+    if (!with_bends) return made;
     made.fine = Bends(mesh.elements, mesh, made.buried);
     made.coarse_elements = elements_of_level(mesh, level);
     made.coarse = Bends(made.coarse_elements, mesh, buried_coarse);

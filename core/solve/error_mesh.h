@@ -49,8 +49,8 @@ struct ErrorMesh {
     }
 };
 
-// buried: all vertices; buried_coarse: those of the level alone.
+// with_bends: else neither knows how a field bends. buried: all vertices; buried_coarse: those of the level alone.
 ErrorMesh make_error_mesh(const Mesh& mesh, std::uint32_t level, std::vector<std::uint8_t> buried,
-                          const std::vector<std::uint8_t>& buried_coarse);
+                          const std::vector<std::uint8_t>& buried_coarse, bool with_bends = true);
 
 } // namespace lueur

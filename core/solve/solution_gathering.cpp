@@ -241,16 +241,16 @@ void trace_gathering_rows(State& s, const std::atomic<bool>& cancel) {
         if (s.passes.size() < s.kept_hits.size()) hits = std::move(s.kept_hits[s.passes.size()]);
         if (!s.refined) hits.resize(rays);
         s.passes.push_back(make_gather_pass(s.mesh, s.receivers, std::move(hits)));
+        s.pass_buried = s.all_buried();
         s.cursor = 0;
         s.pass_open = true;
     }
     const std::uint32_t pass = static_cast<std::uint32_t>(s.passes.size()) - 1;
-    const std::vector<std::uint8_t> buried = s.all_buried();
     std::atomic<std::uint64_t> traced{0};
     const bool done =
         run_slice(s.cursor, s.receivers.count(), 64, cancel, [&](std::uint32_t first, std::uint32_t last) {
-            traced.fetch_add(trace_gather_rays(*s.world, s.mesh, s.origins, s.receivers, buried, s.scene->solve.seed,
-                                               pass, first, last, s.passes.back()),
+            traced.fetch_add(trace_gather_rays(*s.world, s.mesh, s.origins, s.receivers, s.pass_buried,
+                                               s.scene->solve.seed, pass, first, last, s.passes.back()),
                              std::memory_order_relaxed);
         });
     s.status.rays += traced.load();

@@ -71,6 +71,7 @@ struct Solution::State {
     std::optional<IndirectLevel> indirect_level; // not in use yet: rows that are there refer to the coarse one
     std::vector<GatherPass> passes;
     std::vector<std::vector<RayHit>> kept_hits; // of each pass, while the mesh it was traced on still grows
+    std::vector<std::uint8_t> pass_buried;      // all_buried() while it is being traced
     bool pass_open = false;                     // the last pass is being traced
     std::uint32_t passes_wanted = 1;            // from the geometry alone: see passes_for
     bool only_probes_left = false;              // gathering is solved, and asks how right it is

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <span>
 
 #include "core/transport/gather_rows.h"
@@ -14,8 +15,9 @@ namespace lueur {
 
 namespace {
 
-constexpr float small_size = 0.25f;     // of the coarse element size: what is smaller counts by its area
-constexpr float long_edge_share = 0.4f; // of the coarse element size: longer edges are looked at in any case
+constexpr std::uint32_t most_sketched = 32; // luminaires that a first guess asks
+constexpr float small_size = 0.25f;         // of the coarse element size: what is smaller counts by its area
+constexpr float long_edge_share = 0.4f;     // of the coarse element size: longer edges are looked at in any case
 
 } // namespace
 
@@ -42,7 +44,7 @@ void DirectTransport::follow_rows() {
         row_area_[v < sampled_vertices() ? samples_.of_vertex[v] : row_of(v)] += area[v];
     std::vector<float> at_rows;
     for (const DirectRow& row : rows_) at_rows.push_back(guessed_light(row));
-    guessed_.resize(mesh_.vertices.size());
+    guessed_.assign(mesh_.vertices.size(), 0);
     read_rows(at_rows, 1, guessed_);
 }
 
@@ -80,13 +82,13 @@ void DirectTransport::read_rows(std::span<const float> at_rows, std::size_t stri
     tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, count, 1024), [&](const auto& range) {
         for (std::uint32_t v = range.begin(); v < range.end(); ++v) {
             float* out = at_vertices.data() + v * stride;
-            if (const std::uint32_t row = row_of(v); row != no_index) {
-                std::copy_n(at_rows.data() + row * stride, stride, out);
-                continue;
-            }
-            std::fill_n(out, stride, 0.0f);
-            for (const LightSamples::Reading& r : samples_.readings_of(v))
-                for (std::size_t k = 0; k < stride; ++k) out[k] += r.weight * at_rows[r.sample * stride + k];
+            const auto add = [&](std::uint32_t row, float weight) {
+                for (std::size_t k = 0; k < stride; ++k) out[k] += weight * at_rows[row * stride + k];
+            };
+            if (const std::uint32_t row = row_of(v); row != no_index)
+                add(row, 1);
+            else
+                for (const LightSamples::Reading& r : samples_.readings_of(v)) add(r.sample, r.weight);
         }
     });
 }
@@ -104,18 +106,45 @@ double DirectTransport::progress() const {
     return refined_ || edges_.edges().empty() ? 1 : double(edge_cursor_) / double(edges_.edges().size());
 }
 
+// A first guess: one ray to each luminaire, or to a few drawn by what they would give without shadows, each for as many
+// as it was drawn among (systematic sampling: all of even light are drawn in turn).
+DirectRow DirectTransport::sketched_row(std::uint32_t v) const {
+    const glm::vec3 origin = origins_[v], normal = mesh_.vertices[v].normal;
+    static thread_local std::vector<float> shares;
+    shares.assign(emitters_.size(), 0.0f);
+    float all = 0;
+    const auto probe = [&](std::uint32_t l) -> const EmitterPoint& {
+        return emitters_[l].probes[hash(v, l) % emitters_[l].probes.size()];
+    };
+    std::uint32_t shining = 0;
+    for (std::uint32_t l = 0; l < emitters_.size(); ++l) {
+        if (emitters_[l].area <= 0) continue;
+        shares[l] =
+            std::min(1.0f, emitter_kernel(origin, normal, probe(l)) * emitters_[l].area / std::numbers::pi_v<float>);
+        all += weight_[l] * shares[l];
+        shining += shares[l] > 0;
+    }
+    DirectRow row;
+    const float step = shining > most_sketched ? all / most_sketched : 0;
+    float next = step * unit_float(hash(v));
+    for (std::uint32_t l = 0; l < emitters_.size(); ++l) {
+        if (!(shares[l] > 0)) continue;
+        float counts = 1;
+        if (step > 0) {
+            counts = 0;
+            const float light = weight_[l] * shares[l];
+            for (next -= light; next < 0; next += step) counts += step / light;
+        }
+        if (counts > 0 && sees(world_, origin, probe(l).position)) row.push_back({l, counts * shares[l], 0});
+    }
+    return row;
+}
+
 bool DirectTransport::sketch(const std::atomic<bool>& cancel) {
     const bool done = run_slice(sketch_cursor_, row_count(), 128, cancel, [&](std::uint32_t first, std::uint32_t last) {
-        for (std::uint32_t r = first; r < last; ++r) {
-            const std::uint32_t v = vertex_of(r);
-            rows_[r].clear();
-            for (std::uint32_t l = 0; l < emitters_.size(); ++l)
-                if (const float d = direct_form_factor_sketch(world_, emitters_[l], origins_[v],
-                                                              mesh_.vertices[v].normal, hash(v, l));
-                    d > 0)
-                    rows_[r].push_back({l, d, 0});
-        }
-        rays_.fetch_add(std::uint64_t(last - first) * emitters_.size(), std::memory_order_relaxed);
+        for (std::uint32_t r = first; r < last; ++r) rows_[r] = sketched_row(vertex_of(r));
+        rays_.fetch_add(std::uint64_t(last - first) * std::min<std::size_t>(most_sketched, emitters_.size()),
+                        std::memory_order_relaxed);
     });
     if (done) follow_rows();
     return done;

@@ -60,7 +60,7 @@ public:
     const LightSamples& samples() const { return samples_; }
     const std::vector<DirectRow>& rows() const { return rows_; }
     std::uint32_t row_count() const { return static_cast<std::uint32_t>(rows_.size()); }
-    // Of `stride` numbers at each row: those at all vertices, one after the other.
+    // Of `stride` numbers at each row: adds those at all vertices, one after the other.
     void read_rows(std::span<const float> at_rows, std::size_t stride, std::span<float> at_vertices) const;
     // f(share, weight) of all shares that D at a vertex is made of.
     template <typename F>
@@ -87,6 +87,7 @@ public:
 
 private:
     void light(glm::vec3 origin, glm::vec3 normal, float size, float* factors, float* deviations) const;
+    DirectRow sketched_row(std::uint32_t v) const;
     DirectRow row_at(glm::vec3 origin, glm::vec3 normal, float size) const;
     float guessed_light(const DirectRow& row) const;
     void follow_rows(); // what all vertices read of them
