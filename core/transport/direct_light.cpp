@@ -279,14 +279,6 @@ float direct_form_factor(const World& world, const Emitter& emitter, glm::vec3 o
     return static_cast<float>(f * share.share);
 }
 
-float direct_form_factor_sketch(const World& world, const Emitter& emitter, glm::vec3 origin, glm::vec3 normal,
-                                std::uint32_t choice) {
-    if (nothing_arrives(emitter, origin, normal)) return 0;
-    const EmitterPoint& p = emitter.probes[choice % emitter.probes.size()];
-    const float f = emitter_kernel(origin, normal, p) * emitter.area / std::numbers::pi_v<float>;
-    return f > 0 && sees(world, origin, p.position) ? std::min(f, 1.0f) : 0;
-}
-
 float direct_form_factor_sampled(const World& world, const Emitter& emitter, glm::vec3 origin, glm::vec3 normal,
                                  int samples, glm::vec2 offset) {
     if (nothing_arrives(emitter, origin, normal)) return 0;

@@ -68,11 +68,6 @@ float direct_form_factor(const World& world, const Emitter& emitter, glm::vec3 o
 // F alone, as if nothing stood between; one kernel where the luminaire is far.
 float unshadowed_form_factor(const Emitter& emitter, glm::vec3 origin, glm::vec3 normal);
 
-// A first guess with one shadow ray, to a probe chosen by `choice`: unbiased far away, rough near the lamp. For a
-// picture at once.
-float direct_form_factor_sketch(const World& world, const Emitter& emitter, glm::vec3 origin, glm::vec3 normal,
-                                std::uint32_t choice);
-
 // The same with `samples` shadow rays of their own random set, for measuring: unbiased visibility.
 float direct_form_factor_sampled(const World& world, const Emitter& emitter, glm::vec3 origin, glm::vec3 normal,
                                  int samples, glm::vec2 offset);
