@@ -75,7 +75,7 @@ MemoryPlan plan_memory(const Scene& scene, int channels) {
     plan.direct = bytes((lit + fine) * (24 + 12 * shares));
     const int most_rays = std::max(scene.solve.max_rays, independent_sets * rays_per_pass);
     const double receivers = lit + contact_vertices + lit / contact_share;
-    plan.rows = bytes(8.0 * receivers * most_rays);
+    plan.rows = bytes(8.0 * receivers * most_rays + 12.0 * receivers * independent_sets * rays_per_pass);
     // Of the system some fifteen vectors (gather_system.h); at all vertices indirect light, the whole of it, and what
     // is read of direct light.
     plan.fields = bytes(15 * channel_bytes * receivers + (3 * channel_bytes + a_shown_vertex) * all_vertices);

@@ -47,12 +47,18 @@ double unshot_flux_share(const State& s) {
     return s.status.emitted_lumens > 0 ? flux / s.status.emitted_lumens : 0;
 }
 
-// Direct light reflected at the fine vertices: rho D E, one row more than vertices, the last zero.
+// Fine vertices that rays may end at: those there were when the rays were traced. The mesh may have grown since.
+std::uint32_t fine_vertices_of_rays(const State& s) {
+    return s.passes.empty() ? static_cast<std::uint32_t>(s.mesh.vertices.size()) : s.passes.front().fine_vertices;
+}
+
+// Direct light reflected at the fine vertices: rho D E; the row after those that rays end at is zero.
 ChannelField reflected_direct(const State& s) {
-    const std::uint32_t count = static_cast<std::uint32_t>(s.mesh.vertices.size());
+    const std::uint32_t count = fine_vertices_of_rays(s);
     const int channels = s.channels();
-    ChannelField b(count + 1, channels);
+    ChannelField b(static_cast<std::uint32_t>(s.mesh.vertices.size()) + 1, channels);
     read_direct(s, std::vector<std::uint8_t>(s.luminaire_exitance.size(), 1), b);
+    std::fill_n(b[count], channels, 0.0f);
     tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, count, 256),
                       [&](const tbb::blocked_range<std::uint32_t>& range) {
                           for (std::uint32_t v = range.begin(); v < range.end(); ++v) {
@@ -81,7 +87,7 @@ double gathering_missing_share(const State& s, const std::vector<float>& areas, 
 
 void update_error(State& s) {
     const std::uint32_t receivers = s.receivers.count();
-    ScalarRadiosity radiosity{std::vector<float>(receivers), std::vector<float>(s.mesh.vertices.size())};
+    ScalarRadiosity radiosity{std::vector<float>(receivers), std::vector<float>(fine_vertices_of_rays(s))};
     for (std::uint32_t i = 0; i < receivers; ++i)
         radiosity.indirect[i] = static_cast<float>(luminous(s, s.system.radiosity()[i]));
     // Direct irradiance and its reflection, the luminous part of both.
@@ -97,7 +103,7 @@ void update_error(State& s) {
         }
         for (std::uint32_t i = 0; i < receivers; ++i)
             direct[i] = static_cast<float>(luminous(s, h[s.receivers.vertex[i]]));
-        for (std::uint32_t v = 0; v < h.count; ++v) {
+        for (std::uint32_t v = 0; v < radiosity.direct.size(); ++v) {
             const std::vector<float>& on_paint = reflected[s.material_of(s.mesh.vertices[v].surface)];
             for (std::size_t c = 0; c < on_paint.size(); ++c) radiosity.direct[v] += on_paint[c] * h[v][c];
         }
@@ -203,7 +209,8 @@ void plan_passes(State& s) {
     const std::uint32_t now = static_cast<std::uint32_t>(s.passes.size());
     if (s.rays_planned || now < s.passes_wanted) return;
     const double target = ray_share * s.scene->solve.target_error;
-    const double error = grey_ray_error(s.passes, s.direct->guessed_light(), receiver_areas(s), smoothed_receivers(s));
+    const double error = grey_ray_error(s.passes, std::span(s.direct->guessed_light()).first(fine_vertices_of_rays(s)),
+                                        receiver_areas(s), smoothed_receivers(s));
     if (error <= target || now >= most_passes(s)) {
         s.rays_planned = true;
         return;
@@ -239,7 +246,7 @@ void trace_gathering_rows(State& s, const std::atomic<bool>& cancel) {
         std::vector<RayHit> hits;
         const std::size_t rays = std::size_t(s.receivers.count()) * rays_per_pass;
         if (s.passes.size() < s.kept_hits.size()) hits = std::move(s.kept_hits[s.passes.size()]);
-        if (!s.refined) hits.resize(rays);
+        if (!s.fully_refined()) hits.resize(rays);
         s.passes.push_back(make_gather_pass(s.mesh, s.receivers, std::move(hits)));
         s.pass_buried = s.all_buried();
         s.cursor = 0;
@@ -256,7 +263,7 @@ void trace_gathering_rows(State& s, const std::atomic<bool>& cancel) {
     s.status.rays += traced.load();
     if (!done) return;
     s.pass_open = false;
-    if (s.refined) s.passes.back().hits = {};
+    if (s.fully_refined()) s.passes.back().hits = {};
     s.status.rays_per_receiver = static_cast<std::uint32_t>(s.passes.size()) * rays_per_pass;
     s.status.row_entries = std::uint64_t(s.receivers.count()) * s.status.rays_per_receiver;
     if (s.passes.size() < s.passes_wanted) return;
@@ -276,7 +283,7 @@ void step_gathering(State& s, const std::atomic<bool>& cancel) {
         return;
     }
     if (s.status.sweeps == 0 && has_no_finite_solution(s)) return fail(s, no_finite_solution);
-    const double target = s.refined ? residual_target : first_residual_target;
+    const double target = s.fully_refined() ? residual_target : first_residual_target;
     if (s.system.relative_residual() > target) {
         if (!s.system.sweep(s.passes, cancel)) return;
         ++s.status.sweeps;
@@ -294,6 +301,10 @@ void step_gathering(State& s, const std::atomic<bool>& cancel) {
             s.phase = SolvePhase::transport;
         } else
             s.phase = SolvePhase::refine;
+        return;
+    }
+    if (!s.direct->refined()) {
+        s.phase = SolvePhase::refine;
         return;
     }
     plan_passes(s);

@@ -304,8 +304,8 @@ void DirectTransport::follow_mesh() {
     level_begun_ = false;
 }
 
-bool DirectTransport::refine(const std::atomic<bool>& cancel) {
-    if (refined_ || emitters_.empty()) return true;
+bool DirectTransport::refine(const std::atomic<bool>& cancel, std::uint32_t levels) {
+    if (refined() || level_ >= levels) return true;
     if (!level_begun_) {
         begin_level();
         level_begun_ = true;
@@ -324,7 +324,8 @@ bool DirectTransport::refine(const std::atomic<bool>& cancel) {
     if (!done) return false;
     split_bent();
     level_begun_ = false;
-    return refined_;
+    ++level_;
+    return refined_ || level_ >= levels;
 }
 
 } // namespace lueur

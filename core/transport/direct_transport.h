@@ -46,7 +46,9 @@ public:
     // Each brings its stage forward by one time slice; true when the stage is done.
     bool sketch(const std::atomic<bool>& cancel);         // a first guess of D at the vertices there are, one ray each
     bool light_vertices(const std::atomic<bool>& cancel); // D at the vertices there are
-    bool refine(const std::atomic<bool>& cancel);         // then split, level by level, and light the new ones
+    // Then split, level by level, at most until there have been so many, and light the new ones.
+    bool refine(const std::atomic<bool>& cancel, std::uint32_t levels = no_index);
+    bool refined() const { return refined_ || emitters_.empty(); } // all levels
 
     // The mesh was cut by someone else: its new vertices have what their parents
     // have, until light_vertices has been called to its end.
@@ -120,6 +122,7 @@ private:
 
     std::uint32_t edge_cursor_ = 0;
     bool level_begun_ = false, refined_ = false;
+    std::uint32_t level_ = 0; // so many are done
     float floor_ = 0;
     double misfit_ = 0, misfit_sum_ = 0;
     std::uint64_t misfit_count_ = 0;

@@ -64,8 +64,9 @@ LookAround look_around(const World& world, glm::vec3 origin, glm::vec3 normal) {
 
 GatherPass make_gather_pass(const Mesh& mesh, const Receivers& receivers, std::vector<RayHit> hits) {
     const std::size_t rays = std::size_t(receivers.count()) * rays_per_pass;
-    return {std::vector<std::uint32_t>(rays, receivers.count()),
-            std::vector<std::uint32_t>(rays, static_cast<std::uint32_t>(mesh.vertices.size())), std::move(hits)};
+    const std::uint32_t vertices = static_cast<std::uint32_t>(mesh.vertices.size());
+    return {std::vector<std::uint32_t>(rays, receivers.count()), std::vector<std::uint32_t>(rays, vertices), vertices,
+            std::move(hits)};
 }
 
 std::uint64_t trace_gather_rays(const World& world, const Mesh& mesh, const std::vector<glm::vec3>& origins,

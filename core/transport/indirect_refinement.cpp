@@ -14,7 +14,7 @@ namespace lueur {
 
 namespace {
 
-constexpr std::uint32_t rays_a_place = 64;
+constexpr std::uint32_t rays_a_place = 32; // differences between places count, and the rays are alike
 constexpr float grey_reflectance = 0.5f;
 constexpr float close_edge = 0.7f; // of the distance to what is around: longer edges are looked at
 

@@ -284,8 +284,7 @@ struct Hall {
                    {0, height}});
     }
     void table(const Placing& place, const std::string& name) {
-        add_rounded(part(name, oak), place, segments(6), segments(2.5f), {1.1f, 0.02f, 0.5f}, 8,
-                    [](glm::vec3 p) { return p + glm::vec3(0, 0.73f, 0); });
+        add_box(part(name, oak), place, {-1.1f, 0.71f, -0.5f}, {1.1f, 0.75f, 0.5f});
         Part& legs = part(name + " legs", oak);
         for (const float x : {-0.95f, 0.95f})
             for (const float z : {-0.38f, 0.38f}) leg(legs, place, x, z, 0.035f, 0.7f);
