@@ -19,6 +19,7 @@ namespace {
 constexpr double elements_in_a_square = 5.6;
 // Embree's boxes and robust triangles take so many bytes a triangle, of 30,000 to 1,000,000.
 constexpr double bytes_of_box = 150;
+constexpr double cut_groups = 1.5; // as many samples as groups of full width: some are cut where things are close
 constexpr double share_of_luminaires = 0.6; // that an entry of a row is kept for, of a hall's hundreds
 // Arrays of the solve, bytes: of a vertex, where rays start, who is buried, areas, what surrounds it, what it reads; in
 // the composed field; in the estimate of error.
@@ -51,8 +52,8 @@ MemoryPlan plan_memory(const Scene& scene, int channels) {
         elements += parts * (two_sided ? 2 : 1);
         vertices += (parts - 1) / 2 * (two_sided ? 2 : 1) + (two_sided ? 0.5 : 0);
     }
-    const double samples = count_light_samples(scene, static_cast<float>(sample_cell * size), most_samples) +
-                           std::max(0.0, vertices - double(geometry.vertices.size()));
+    const double groups = count_light_samples(scene, static_cast<float>(sample_cell * size), most_samples);
+    const double samples = cut_groups * groups + std::max(0.0, vertices - double(geometry.vertices.size()));
     const double lit = std::min<double>(samples, most_samples);
     const double fine = std::min<double>(fine_vertices(static_cast<std::uint64_t>(vertices)), 4 * lit) +
                         contact_vertices + lit / contact_share;

@@ -24,7 +24,7 @@ constexpr float ridge = 0.04f; // of the plane's slopes, of the squared distance
 constexpr float least_weight = 0.02f;
 constexpr std::uint32_t most_tries = 8; // for a sample outside solids
 constexpr float wider = 1.25f;
-constexpr float close_cell = 1;               // of the distance to what is around: wider groups are cut
+constexpr float close_cell = 0.7f;            // of the distance to what is around: wider groups are cut
 constexpr std::uint32_t parts_of_a_group = 6; // that a cut makes, of a surface's two dimensions and what crosses it
 constexpr int most_cuts = 3;
 
@@ -353,7 +353,7 @@ LightSamples make_light_samples(const Scene& scene, const Mesh& mesh, const Worl
     LightSamples samples;
     // First normals within about 30 degrees, then within 50, then wider cubes.
     Grouping by{cell, 2, std::vector<std::uint8_t>(mesh.coarse_vertex_count, 0)};
-    for (; !group(scene, mesh, by, most / 2, samples); by.look = 1)
+    for (; !group(scene, mesh, by, most / 8 * 3, samples); by.look = 1)
         if (by.look == 1) by.cell *= wider;
     std::vector<float> distance = choose_samples(mesh, world, origins, samples);
     for (int cut = 0; cut < most_cuts; ++cut) {

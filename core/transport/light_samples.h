@@ -39,9 +39,9 @@ struct LightSamples {
 };
 
 // Groups of vertices in cubes of edge `cell`, m, with normals within about 30 degrees; wider ones until there are at
-// most half of `most` of them. Then groups are cut where other surfaces are closer than they are wide. A sample is the
-// vertex nearest to the middle of its group that does not lie inside a solid, if one does not. origins: of the coarse
-// vertices.
+// most three eighths of `most` of them. Then groups are cut where other surfaces are closer than they are wide. A
+// sample is the vertex nearest to the middle of its group that does not lie inside a solid, if one does not. origins:
+// of the coarse vertices.
 LightSamples make_light_samples(const Scene& scene, const Mesh& mesh, const World& world,
                                 const std::vector<glm::vec3>& origins, float cell, std::uint32_t most);
 
