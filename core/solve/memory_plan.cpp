@@ -20,6 +20,8 @@ constexpr double elements_in_a_square = 5.6;
 // Embree's boxes and robust triangles take so many bytes a triangle, of 30,000 to 1,000,000.
 constexpr double bytes_of_box = 150;
 constexpr double cut_groups = 1.5; // as many samples as groups of full width: some are cut where things are close
+// `lueur plan` of a scene of six walls.
+constexpr std::uint64_t bytes_of_program = 140ull << 20;
 constexpr double share_of_luminaires = 0.6; // that an entry of a row is kept for, of a hall's hundreds
 // Arrays of the solve, bytes: of a vertex, where rays start, who is buried, areas, what surrounds it, what it reads; in
 // the composed field; in the estimate of error.
@@ -32,7 +34,7 @@ constexpr double edges_of_an_element = 24 * 2, bends_of_an_element = 168 + 120;
 } // namespace
 
 std::uint64_t MemoryPlan::peak() const {
-    return std::max(loading, scene + mesh + world + direct + rows + fields);
+    return program + scene + mesh + world + direct + rows + fields;
 }
 
 MemoryPlan plan_memory(const Scene& scene, int channels) {
@@ -57,6 +59,7 @@ MemoryPlan plan_memory(const Scene& scene, int channels) {
     const double lit = std::min<double>(samples, most_samples);
     const double fine = std::min<double>(fine_vertices(static_cast<std::uint64_t>(vertices)), 4 * lit) +
                         contact_vertices + lit / contact_share;
+    plan.program = bytes_of_program;
     plan.samples = static_cast<std::uint64_t>(lit);
     plan.vertices = static_cast<std::uint64_t>(vertices + fine);
     plan.elements = static_cast<std::uint64_t>(elements + 2 * fine);

@@ -11,8 +11,8 @@ struct MemoryPlan {
     // What it is worked out from.
     std::uint64_t vertices = 0, elements = 0; // of the mesh
     std::uint64_t samples = 0;                // places where light is computed
-    std::uint64_t loading = 0;                // bytes at most while the file is read, and of the scene afterwards
     // Bytes at their most.
+    std::uint64_t program = 0; // itself, with its libraries
     std::uint64_t scene = 0;
     std::uint64_t mesh = 0;   // and what is kept of it for the estimate of error
     std::uint64_t world = 0;  // rays' hierarchy of boxes, and the triangles in it
