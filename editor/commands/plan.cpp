@@ -116,10 +116,11 @@ std::string plan_text(const ScenePlan& plan, const std::filesystem::path& file) 
     text +=
         fmt::format("mesh         about {} vertices, {} elements; light is computed at {} of them and where it bends\n",
                     m.vertices, m.elements, m.samples);
-    text += fmt::format("memory       about {}: scene {}, mesh {}, world of the rays {}, direct light {}, rows {}, "
-                        "fields {}\n",
-                        bytes_text(m.peak()), bytes_text(m.scene), bytes_text(m.mesh), bytes_text(m.world),
-                        bytes_text(m.direct), bytes_text(m.rows), bytes_text(m.fields));
+    text += fmt::format(
+        "memory       about {}: program {}, scene {}, mesh {}, world of the rays {}, direct light {}, rows {}, "
+        "fields {}\n",
+        bytes_text(m.peak()), bytes_text(m.program), bytes_text(m.scene), bytes_text(m.mesh), bytes_text(m.world),
+        bytes_text(m.direct), bytes_text(m.rows), bytes_text(m.fields));
     if (plan.content.lights.empty()) text += "No luminaire emits: equal energy is taken in their place.\n";
 
     std::size_t width = std::string_view("lamp spectrum of").size();
@@ -164,8 +165,8 @@ std::string plan_json(const ScenePlan& plan, const PlanCommand& command, const S
     prediction(report, plan.plan.prediction);
     const MemoryPlan& memory = plan.memory;
     report["memory_bytes"] =
-        Json{{"peak", memory.peak()},   {"scene", memory.scene}, {"mesh", memory.mesh},    {"world", memory.world},
-             {"direct", memory.direct}, {"rows", memory.rows},   {"fields", memory.fields}};
+        Json{{"peak", memory.peak()}, {"program", memory.program}, {"scene", memory.scene}, {"mesh", memory.mesh},
+             {"world", memory.world}, {"direct", memory.direct},   {"rows", memory.rows},   {"fields", memory.fields}};
     report["vertices"] = memory.vertices;
     report["elements"] = memory.elements;
     report["samples"] = memory.samples;
