@@ -476,7 +476,7 @@ void write_toml(const std::filesystem::path& path, const std::string& name, cons
 
 HallSize write_hall(const std::filesystem::path& folder, const std::string& name, const HallParams& params) {
     float low = 0.5f, high = 40;
-    for (int k = 0; k < 24; ++k) {
+    for (int k = 0; k < 13; ++k) {
         const float middle = std::sqrt(low * high);
         (make_hall(middle, params).triangles() < params.triangles ? low : high) = middle;
     }
