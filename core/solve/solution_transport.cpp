@@ -122,8 +122,8 @@ void step_refine(State& s, const std::atomic<bool>& cancel) {
     // Gathering shows what the first levels give; the finer ones cost more rays and change less.
     const bool gathering = s.solver() == SolverKind::gathering;
     const std::uint32_t levels = gathering && !s.refined ? first_direct_levels : no_index;
-    const bool done =
-        refine_indirect(s, cancel) && s.direct->light_vertices(cancel) && s.direct->refine(cancel, levels);
+    const bool done = refine_indirect(s, cancel) && s.direct->light_vertices(cancel) &&
+                      s.direct->refine(cancel, levels) && s.direct->light_vertices(cancel);
     if (s.mesh.vertices.size() != before) publish_mesh(s);
     if (!done) return;
     // It asks its probes last: they tell how wrong the light is, and make none of it.
