@@ -33,6 +33,9 @@ public:
     // A new right side (rho * G) and reflectance; keeps the solution so far as the first guess, scaled in each channel
     // so that its residual is smallest. Needs no ray and no application of W.
     void set_sources(const ChannelField& rho, const ChannelField& gathered);
+    // The same with a first guess of one's own: `radiosity` has n + 1 rows, `gathered_radiosity` is W of it.
+    void set_sources(const ChannelField& rho, const ChannelField& gathered, ChannelField radiosity,
+                     ChannelField gathered_radiosity);
     void set_rows(const std::vector<GatherPass>& passes); // other rays: W U anew
     void clear();                                         // U = 0
 
@@ -48,6 +51,7 @@ public:
     const ChannelField& residual() const { return r_; }  // unshot radiosity
 
 private:
+    void set_right_side(const ChannelField& rho, const ChannelField& gathered);
     void refresh_residual();
 
     static constexpr int kept_directions = 4;

@@ -56,31 +56,16 @@ std::vector<float> ray_variances(std::span<const GatherPass> passes, const Scala
     return variance;
 }
 
-double ray_error(std::span<const GatherPass> passes, const ScalarRadiosity& radiosity, std::span<const float> direct,
-                 std::span<const float> weight) {
-    if (passes.size() < independent_sets || passes.size() % independent_sets != 0) return 1;
-    const std::uint32_t n = static_cast<std::uint32_t>(radiosity.indirect.size());
-    ScalarRadiosity b = radiosity;
-    b.indirect.push_back(0);
-    b.direct.push_back(0);
-    std::vector<float> total(n), variance(n);
-    tbb::parallel_for(Range(0, n, 256), [&](const Range& range) {
-        for (std::uint32_t i = range.begin(); i < range.end(); ++i) {
-            double sets[independent_sets] = {};
-            for (std::size_t p = 0; p < passes.size(); ++p)
-                sets[p % independent_sets] += independent_sets * pass_mean(passes[p], i, b) / double(passes.size());
-            total[i] = static_cast<float>(direct[i] + (sets[0] + sets[1]) / 2);
-            variance[i] = static_cast<float>((sets[0] - sets[1]) * (sets[0] - sets[1]) / 4);
-        }
-    });
+double relative_ray_error(std::span<const float> irradiance, std::span<const float> variance,
+                          std::span<const float> weight) {
     double area = 0, flux = 0;
-    for (std::uint32_t i = 0; i < n; ++i) area += weight[i], flux += double(weight[i]) * total[i];
+    for (std::size_t i = 0; i < weight.size(); ++i) area += weight[i], flux += double(weight[i]) * irradiance[i];
     if (!(flux > 0)) return 0;
     const double dark = 0.02 * flux / area;
     double sum = 0, counted = 0;
-    for (std::uint32_t i = 0; i < n; ++i) {
-        if (weight[i] <= 0 || total[i] < dark) continue;
-        sum += double(weight[i]) * variance[i] / (double(total[i]) * total[i]);
+    for (std::size_t i = 0; i < weight.size(); ++i) {
+        if (weight[i] <= 0 || irradiance[i] < dark) continue;
+        sum += double(weight[i]) * variance[i] / (double(irradiance[i]) * irradiance[i]);
         counted += weight[i];
     }
     return counted > 0 ? std::sqrt(sum / counted) : 0;
@@ -88,6 +73,7 @@ double ray_error(std::span<const GatherPass> passes, const ScalarRadiosity& radi
 
 double grey_ray_error(std::span<const GatherPass> passes, std::span<const std::uint32_t> receiver_vertex,
                       std::span<const float> fine_direct, std::span<const float> weight) {
+    if (passes.size() < independent_sets || passes.size() % independent_sets != 0) return 1;
     const std::uint32_t n = static_cast<std::uint32_t>(weight.size());
     ScalarRadiosity b{std::vector<float>(n + 1, 0), std::vector<float>(fine_direct.begin(), fine_direct.end())};
     for (float& direct : b.direct) direct *= grey;
@@ -105,9 +91,9 @@ double grey_ray_error(std::span<const GatherPass> passes, std::span<const std::u
     }
     b.indirect.pop_back();
     b.direct.pop_back();
-    std::vector<float> direct;
-    for (const std::uint32_t v : receiver_vertex) direct.push_back(fine_direct[v]);
-    return ray_error(passes, b, direct, weight);
+    std::vector<float> irradiance(n); // of a solution, what arrives is what is reflected over grey
+    for (std::uint32_t i = 0; i < n; ++i) irradiance[i] = fine_direct[receiver_vertex[i]] + b.indirect[i] / grey;
+    return relative_ray_error(irradiance, ray_variances(passes, b), weight);
 }
 
 } // namespace lueur

@@ -13,6 +13,7 @@
 #include "core/solve/hierarchy_field.h"
 #include "core/solve/hierarchy_final.h"
 #include "core/solve/hierarchy_view.h"
+#include "core/solve/light_bases.h"
 #include "core/solve/patch_solve.h"
 #include "core/solve/shooting.h"
 #include "core/solve/solution.h"
@@ -89,6 +90,18 @@ struct Solution::State {
     std::vector<std::optional<LuminaireIndex>> object_luminaire;
 
     GatherSystem system;
+    LightBases light_bases; // of its rows
+    struct BasisInTheMaking {
+        static constexpr std::size_t all_as_they_are = no_index; // in place of one luminaire
+        Exitances exitance;                                      // what it is the solution of
+        Exitances rho;                                           // it is made for, and for as many rays
+        std::uint64_t rays;
+        std::uint32_t sweeps;
+        ChannelField gathered;
+        GatherSystem system;
+    };
+    std::optional<BasisInTheMaking> basis_in_the_making;
+    bool rays_unjudged = false;       // indirect_deviation is of another solution
     ChannelField gathered_direct;     // irradiance at receivers after one reflection of direct light
     ChannelField indirect_irradiance; // gathered_direct + W U where it is gathered, refreshed after sweeps
     Shooting shooting;
