@@ -27,6 +27,8 @@ Hierarchy::Hierarchy(const Scene& scene, const World& world, const HierarchySett
     , direct_(std::move(direct))
     , emitters_(scene.luminaires.size())
     , tree_(make_element_tree(scene, settings.oracle == RefinementOracle::error)) {
+    tree_.nodes.reserve(room_for_nodes());
+    points_.reserve(room_for_nodes());
     for (const ElementNode& n : tree_.nodes) leaves_ += n.is_leaf();
     for (std::uint32_t r = 0; r < tree_.root_count; ++r) total_area_ += double(tree_.nodes[r].area);
     if (!(settings_.smallest_area > 0)) settings_.smallest_area = static_cast<float>(total_area_ / 20000);

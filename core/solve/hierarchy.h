@@ -136,6 +136,7 @@ private:
     void list_links(TimeSlice& slice);
     void add_to_row(std::uint32_t node);
     bool gather(const std::atomic<bool>& cancel); // a slice of it; true at the end
+    std::size_t room_for_nodes() const;           // that there may be in the end
     void resize_values();
     void set_leaf_source(std::uint32_t leaf);
     void relight(TimeSlice& slice);

@@ -21,8 +21,10 @@ constexpr std::uint32_t most_round_sweeps = 3000;
 constexpr std::uint32_t most_rounds = 20;
 constexpr std::uint32_t most_growing = 20; // sweeps in a row whose residual grows: the rows have too much energy
 
-void grow(ChannelField& field, std::uint32_t count, int channels) {
+// room: for so many in the end. To move what is there takes longer than a step may.
+void grow(ChannelField& field, std::uint32_t count, std::size_t room, int channels) {
     if (field.values.empty()) field = ChannelField(count, channels);
+    field.values.reserve(room * static_cast<std::size_t>(field.stride));
     field.count = count;
     field.values.resize(std::size_t(count) * static_cast<std::size_t>(field.stride), 0.0f);
 }
@@ -49,10 +51,15 @@ double tolerance_for(RefinementOracle oracle, double target_error) {
     return 0;
 }
 
+std::size_t Hierarchy::room_for_nodes() const {
+    return std::max(tree_.nodes.size(), std::min<std::size_t>(settings_.most_elements, 4 * tree_.root_count));
+}
+
 void Hierarchy::resize_values() {
     const std::uint32_t count = static_cast<std::uint32_t>(tree_.nodes.size());
     const std::uint32_t before = total_.count;
-    for (ChannelField* field : {&source_, &gathered_, &total_, &b_}) grow(*field, count, channels_);
+    const std::size_t room = room_for_nodes();
+    for (ChannelField* field : {&source_, &gathered_, &total_, &b_}) grow(*field, count, room, channels_);
     for (auto* values :
          {&scale_, &row_sum_, &leaf_error_, &brightness_, &brightness_spread_, &direct_brightness_, &arriving_})
         values->resize(count, 0);
@@ -295,7 +302,7 @@ void Hierarchy::start_pushing(bool sources_only) {
     pushing_.sources_only = sources_only;
     pushing_.change.assign(static_cast<std::size_t>(channels_), 0);
     pushing_.norm = pushing_.along = pushing_.before = pushing_.change;
-    grow(step_before_, static_cast<std::uint32_t>(tree_.nodes.size()), channels_);
+    grow(step_before_, static_cast<std::uint32_t>(tree_.nodes.size()), room_for_nodes(), channels_);
     gather_cursor_ = 0;
     cursor_ = 0;
     phase_ = Phase::push;

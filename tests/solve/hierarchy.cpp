@@ -130,9 +130,9 @@ TEST(Hierarchical, FurnaceIsExactWithRowsOfOne) {
     }
 }
 
-// The lecture's disks lose what touching walls exchange; a row that sees lit surfaces only is scaled to 1, which gives
-// it back.
-TEST(Hierarchical, LectureFormKeepsTheEnergyOfTheFurnaceByItsRows) {
+// The lecture's disks lost a tenth of each row at touching walls. With the exact formula there rows come to 1 on
+// average; some are above it and scaled down, those in the corners stay below: 6 % of the light are lost.
+TEST(Hierarchical, LectureFormLosesLittleInTheFurnace) {
     const double rho = 0.5;
     const Solution solution = test::solved(hierarchical(test::furnace(rho), RefinementOracle::form_factor, 0.05));
     ASSERT_TRUE(solution.status().settled) << solution.status().message;
@@ -141,10 +141,10 @@ TEST(Hierarchical, LectureFormKeepsTheEnergyOfTheFurnaceByItsRows) {
     for_leaves(h, [&](std::uint32_t n, const ElementNode& node) {
         sum += double(node.area) * double(h.row_sum(n)), area += double(node.area);
     });
-    EXPECT_GT(sum / area, 0.85);
-    EXPECT_LT(sum / area, 0.99);
+    EXPECT_NEAR(sum / area, 1, 0.02);
     const double one = solution.state().luminaire_exitance[0][0];
-    EXPECT_NEAR(mean_light(h) / (one / (1 - rho)), 1, 3e-3);
+    EXPECT_LT(mean_light(h), one / (1 - rho));
+    EXPECT_GT(mean_light(h), 0.92 * one / (1 - rho));
 }
 
 // Slices end wherever time is up or someone asks: the same links, the same light. And an edit that comes in the middle
