@@ -70,6 +70,7 @@ void forget_other_solvers(State& s) {
     if (s.solver() != SolverKind::hierarchical) {
         s.final_gather.reset();
         s.making_hierarchy = {};
+        s.making_shown = {};
         s.making_leaf_mesh = {};
         s.hierarchy.reset();
         s.hierarchy_view.reset();

@@ -113,12 +113,22 @@ struct Solution::State {
     enum class ShowLeaves { no, make, cut, light, read, values };
     ShowLeaves show_leaves = ShowLeaves::no; // which part of it is going on
     std::unique_ptr<LeafMesh> leaf_mesh;     // cuts `mesh`, from the first round on
+    // What is shown of the leaves, made on a thread of its own that reads hierarchy, leaf_mesh and mesh: they may not
+    // change meanwhile.
+    struct ShownLeaves {
+        std::shared_ptr<const HierarchyView> view;
+        ChannelField irradiance; // at the mesh's vertices
+    };
+    std::future<ShownLeaves> making_shown;
+    bool sources_wait = false; // new ones, until it is through
     std::uint32_t shown_round = 0;
     std::unique_ptr<FinalGather> final_gather;           // at the mesh's vertices, of the links of this round:
     std::uint32_t final_round = 0;                       //
     FinalGather::Count final_count;                      //
     bool final_counted = false;                          // all its factors
     bool final_done = false;                             // all its rays are traced, or it would be too large
+    ChannelField final_irradiance;                       // what it gathers of the light there is now,
+    std::uint32_t final_cursor = 0;                      // at so many vertices
     std::vector<glm::vec3> vertex_origins;               // of all vertices of the mesh
     std::shared_ptr<const HierarchyView> hierarchy_view; // as of the last round of refinement
     std::unique_ptr<TracedField> traced;                 // of the reference solver
