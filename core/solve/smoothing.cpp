@@ -127,7 +127,8 @@ void smooth(const Smoothing& smoothing, ChannelField& field) {
     if (smoothing.empty()) return;
     const ChannelField before = field;
     const auto stride = static_cast<std::size_t>(field.stride);
-    tbb::parallel_for(Range(0, field.count, 128), [&](const Range& range) {
+    const auto rows = static_cast<std::uint32_t>(std::min<std::size_t>(field.count, smoothing.first.size() - 1));
+    tbb::parallel_for(Range(0, rows, 128), [&](const Range& range) {
         for (std::uint32_t v = range.begin(); v < range.end(); ++v) {
             const std::uint32_t first = smoothing.first[v], last = smoothing.first[v + 1];
             if (first == last) continue;

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double residual_target = 2e-4;             // |r| / |b|, worst channel
 constexpr double first_residual_target = 5e-3;       // of the first picture, whose rays know no more
+constexpr double residuals_in_a_sum = 4;             // a sum of bases may have more of it than each
 constexpr std::uint32_t most_gathering_sweeps = 400; // a system that needs more does not converge
 constexpr std::uint32_t first_passes = 2;            // before the mesh is refined
 constexpr double smoothing_farthest = 3;             // coarse element sizes
@@ -52,8 +53,9 @@ std::uint32_t fine_vertices_of_rays(const State& s) {
     return s.passes.empty() ? static_cast<std::uint32_t>(s.mesh.vertices.size()) : s.passes.front().fine_vertices;
 }
 
-// Direct light reflected at the fine vertices: rho D E, one row more than vertices, the last zero.
-ChannelField reflected_direct(const State& s) {
+// Direct light reflected at the fine vertices: rho D E, one row more than vertices, the last zero. Luminaires without
+// any channels are left out.
+ChannelField reflected_direct(const State& s, const Exitances& exitance) {
     const std::uint32_t count = fine_vertices_of_rays(s);
     const int channels = s.channels();
     const std::size_t emitters = s.direct->emitter_count();
@@ -64,9 +66,9 @@ ChannelField reflected_direct(const State& s) {
                               const auto& rho = s.material_rho[s.material_of(s.mesh.vertices[v].surface)];
                               const float* d = s.direct->at_vertex(v);
                               for (std::size_t l = 0; l < emitters; ++l) {
-                                  if (d[l] == 0) continue;
+                                  if (d[l] == 0 || exitance[l].empty()) continue;
                                   for (int c = 0; c < channels; ++c)
-                                      b[v][c] += d[l] * static_cast<float>(rho[c] * s.luminaire_exitance[l][c]);
+                                      b[v][c] += d[l] * static_cast<float>(rho[c] * exitance[l][c]);
                               }
                           }
                       });
@@ -98,7 +100,10 @@ double gathering_missing_share(const State& s, const std::vector<float>& areas, 
     return missing > 0 ? missing / (missing + arriving) : 0;
 }
 
-void update_error(State& s) {
+} // namespace
+
+void take_stock_of_gathering(State& s) {
+    if (!std::exchange(s.rays_unjudged, false)) return;
     const std::uint32_t receivers = s.receivers.count();
     ScalarRadiosity radiosity{std::vector<float>(receivers), std::vector<float>(fine_vertices_of_rays(s))};
     // Direct irradiance and its reflection: luminous exitance of each luminaire, and its luminous part on each paint.
@@ -113,7 +118,7 @@ void update_error(State& s) {
             reflected[m].push_back(y);
         }
     }
-    std::vector<float> direct(receivers, 0);
+    std::vector<float> direct(receivers, 0); // irradiance; that of the rays is added below
     for (std::uint32_t i = 0; i < receivers; ++i) {
         radiosity.indirect[i] = static_cast<float>(luminous(s, s.system.radiosity()[i]));
         for (std::size_t l = 0; l < exitance.size(); ++l)
@@ -125,16 +130,22 @@ void update_error(State& s) {
         for (std::size_t l = 0; l < exitance.size(); ++l) radiosity.direct[v] += static_cast<float>(d[l] * on_paint[l]);
     }
 
-    const SmoothedReceivers smoothed = smoothed_receivers(s);
-    s.indirect_deviation = smoothed.of(half_differences(s.passes, radiosity));
+    s.indirect_deviation = smoothed_receivers(s).of(half_differences(s.passes, radiosity));
     for (float& d : s.indirect_deviation) d = std::abs(d);
+    std::vector<float> variance;
+    for (const std::uint32_t v : s.receivers.vertex)
+        variance.push_back(s.indirect_deviation[v] * s.indirect_deviation[v]);
     const std::vector<float> areas = receiver_areas(s);
-    const double rays = ray_error(s.passes, radiosity, direct, areas, smoothed);
     const double unsolved = gathering_missing_share(s, areas, direct);
+    for (std::uint32_t i = 0; i < receivers; ++i)
+        direct[i] += static_cast<float>(luminous(s, s.gathered_direct[i]) + luminous(s, s.system.gathered()[i]));
+    const double rays = s.passes.size() % independent_sets == 0 ? relative_ray_error(direct, variance, areas) : 1;
     const double interpolation = s.direct->misfit();
     s.status.estimated_error =
         std::min(1.0, std::sqrt(rays * rays + unsolved * unsolved + interpolation * interpolation));
 }
+
+namespace {
 
 // In a part of the scene that keeps all its light the radiosity grows without end: say so instead of iterating. Light
 // of a receiver can end if it absorbs, if one of its rays leaves the scene, or if one ends where light can.
@@ -184,16 +195,31 @@ void renew_smoothing(State& s) {
                                  static_cast<float>(smoothing_farthest * s.element_size));
 }
 
+LightBasesRoom room_for_bases(const State& s) {
+    return {s.receivers.count(), s.channels(), s.luminaire_exitance.size()};
+}
+
 // New sources, paints or rays: one reflection of direct light is gathered anew, then the system holds them.
 void gather_direct(State& s, bool new_rays) {
     const std::uint32_t n = s.receivers.count();
     const std::atomic<bool> never{false};
-    s.gathered_direct = ChannelField(n, s.channels());
     s.indirect_irradiance = ChannelField(s.mesh.indirect_vertex_count, s.channels());
-    apply_rows(s.passes, RayEnds::fine, reflected_direct(s), s.gathered_direct, never);
     if (!s.solving || s.system.count() != n) s.system = GatherSystem(n, s.channels(), receiver_areas(s));
-    if (new_rays) s.system.set_rows(s.passes), renew_smoothing(s);
-    s.system.set_sources(rho_of_receivers(s), s.gathered_direct);
+    if (new_rays) {
+        s.light_bases.forget();
+        s.system.set_rows(s.passes);
+        renew_smoothing(s);
+    }
+    s.light_bases.keep_for(room_for_bases(s), s.material_rho);
+    if (auto known = s.light_bases.sum(s.luminaire_exitance)) {
+        s.gathered_direct = std::move(known->gathered);
+        s.system.set_sources(rho_of_receivers(s), s.gathered_direct, std::move(known->radiosity),
+                             std::move(known->arriving));
+    } else {
+        s.gathered_direct = ChannelField(n, s.channels());
+        apply_rows(s.passes, RayEnds::fine, reflected_direct(s, s.luminaire_exitance), s.gathered_direct, never);
+        s.system.set_sources(rho_of_receivers(s), s.gathered_direct);
+    }
     s.solving = true;
     s.status.sweeps = 0;
     refresh_indirect(s);
@@ -280,7 +306,7 @@ void trace_gathering_rows(State& s, const std::atomic<bool>& cancel) {
 void step_gathering(State& s, const std::atomic<bool>& cancel) {
     s.status.stage = SolveStage::solving;
     if (s.only_probes_left) {
-        if (ask_probes(s, cancel)) settle(s);
+        if (step_probes(s, cancel)) settle(s);
         return;
     }
     if (s.status.sweeps == 0 && has_no_finite_solution(s)) return fail(s, no_finite_solution);
@@ -295,25 +321,66 @@ void step_gathering(State& s, const std::atomic<bool>& cancel) {
     s.status.unshot_share = unshot_flux_share(s);
     s.status.residual = s.system.relative_residual();
     if (s.system.relative_residual() > target) return;
-    update_error(s);
-    if (!s.refined) { // first what tells most: rays, as long as they are few, then shadows' edges and contacts
-        if (s.passes.size() < first_passes) {
-            s.passes_wanted = std::min(first_passes, 2 * s.passes_wanted);
-            s.phase = SolvePhase::transport;
-        } else
-            s.phase = SolvePhase::refine;
+    s.rays_unjudged = true;
+    if (s.fully_refined()) plan_passes(s);
+    if (s.fully_refined() && s.passes.size() >= s.passes_wanted) {
+        s.only_probes_left = true;
         return;
     }
-    if (!s.direct->refined()) {
-        s.phase = SolvePhase::refine;
-        return;
+    take_stock_of_gathering(s); // a settled solution is judged when it is shown
+    // First what tells most: rays, as long as they are few, then shadows' edges and contacts.
+    const bool more_rays = s.fully_refined() || (!s.refined && s.passes.size() < first_passes);
+    if (!s.refined && more_rays) s.passes_wanted = std::min(first_passes, 2 * s.passes_wanted);
+    s.phase = more_rays ? SolvePhase::transport : SolvePhase::refine;
+}
+
+// One sweep, or what comes before the first: of what one luminaire does alone, or of what is shown, from which edits
+// start while not all luminaires have a basis. Both are solved further than what is shown, for sums add residuals up.
+bool prepare_gathering_edits(State& s, const std::atomic<bool>& cancel) {
+    using Making = State::BasisInTheMaking;
+    LightBases& bases = s.light_bases;
+    if (s.passes.empty() || s.status.emitted_lumens <= 0) return false;
+    bases.keep_for(room_for_bases(s), s.material_rho);
+    std::optional<std::size_t> luminaire = bases.next();
+    if (luminaire && !bases.has_reference(s.luminaire_exitance)) luminaire = Making::all_as_they_are;
+    if (!luminaire) {
+        s.basis_in_the_making.reset();
+        return false;
     }
-    plan_passes(s);
-    if (s.passes.size() < s.passes_wanted) {
-        s.phase = SolvePhase::transport;
-        return;
+    const std::uint32_t n = s.receivers.count();
+    Exitances exitance = s.luminaire_exitance;
+    if (*luminaire != Making::all_as_they_are) {
+        exitance.assign(exitance.size(), {});
+        exitance[*luminaire].assign(static_cast<std::size_t>(s.channels()), 1.0);
     }
-    s.only_probes_left = true;
+    if (!s.basis_in_the_making || s.basis_in_the_making->exitance != exitance ||
+        s.basis_in_the_making->rho != s.material_rho || s.basis_in_the_making->rays != s.status.row_entries) {
+        Making making{exitance, s.material_rho, s.status.row_entries, 0, s.gathered_direct, s.system};
+        if (*luminaire != Making::all_as_they_are) {
+            if (!apply_rows(s.passes, RayEnds::fine, reflected_direct(s, exitance), making.gathered, cancel))
+                return true;
+            making.system = GatherSystem(n, s.channels(), receiver_areas(s));
+            making.system.set_sources(rho_of_receivers(s), making.gathered);
+        }
+        s.basis_in_the_making = std::move(making);
+        return true;
+    }
+    Making& making = *s.basis_in_the_making;
+    if (making.system.relative_residual() > residual_target / residuals_in_a_sum) {
+        if (!making.system.sweep(s.passes, cancel)) return true;
+        if (making.system.diverged() || ++making.sweeps > most_gathering_sweeps) {
+            if (*luminaire == Making::all_as_they_are) return false;
+            bases.give_up(*luminaire);
+        }
+        return true;
+    }
+    LightSolution solution{std::move(making.gathered), making.system.radiosity(), making.system.gathered()};
+    if (*luminaire == Making::all_as_they_are)
+        bases.set_reference(exitance, std::move(solution));
+    else
+        bases.add(*luminaire, std::move(solution));
+    s.basis_in_the_making.reset();
+    return true;
 }
 
 double gathering_progress(const State& s) {

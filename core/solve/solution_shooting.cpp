@@ -38,8 +38,12 @@ ChannelField direct_of(const State& s, const std::vector<float>& coarse_direct, 
 }
 
 Shooting::Scenery scenery_of(const State& s) {
-    Shooting::Scenery scenery{s.origins, s.buried, {}, std::vector<std::uint8_t>(s.luminaire_exitance.size(), 1), 1};
-    for (const std::uint8_t lit : s.around.lit) scenery.closed.push_back(lit == burial_rays);
+    Shooting::Scenery scenery{
+        s.origins, {}, s.buried, {}, std::vector<std::uint8_t>(s.luminaire_exitance.size(), 1), 1};
+    for (const std::uint8_t lit : s.around.lit) {
+        scenery.lit.push_back(static_cast<float>(lit) / burial_rays);
+        scenery.closed.push_back(lit == burial_rays);
+    }
     for (std::uint32_t v = 0; v < s.mesh.coarse_vertex_count; ++v)
         if (const auto l = s.luminaire_of(s.mesh.vertices[v].surface, s.mesh.vertices[v].back); l && !scenery.closed[v])
             scenery.luminaire_closed[*l] = 0;

@@ -105,12 +105,18 @@ void step_burial(State& s, const std::atomic<bool>& cancel) {
     start_solver(s);
 }
 
-bool ask_probes(State& s, const std::atomic<bool>& cancel) {
+bool step_probes(State& s, const std::atomic<bool>& cancel) {
     if (s.probes.complete()) return true;
     const std::vector<std::uint8_t> buried = s.all_buried();
-    if (s.probes.points.empty())
-        place_probes(*s.world, s.mesh, *s.direct, buried, probe_count, s.scene->solve.seed, s.probes);
-    if (!trace_probes(*s.world, s.mesh, *s.direct, buried, s.scene->solve.seed, cancel, s.probes)) return false;
+    const std::uint32_t seed = s.scene->solve.seed;
+    if (s.probes.points.empty()) {
+        std::vector<std::uint32_t> luminaire(s.mesh.coarse_element_count, no_index);
+        for (std::uint32_t e = 0; e < luminaire.size(); ++e)
+            if (const auto l = s.luminaire_of(s.mesh.coarse_surface[e], s.mesh.coarse_back[e] != 0))
+                luminaire[e] = static_cast<std::uint32_t>(*l);
+        place_probes(*s.world, s.mesh, *s.direct, buried, std::move(luminaire), probe_count, seed, s.probes);
+    }
+    if (!trace_probes(*s.world, s.mesh, *s.direct, buried, seed, cancel, s.probes)) return false;
     s.status.rays +=
         s.probes.points.size() * (ErrorProbes::rays + ErrorProbes::shadow_rays * s.direct->emitter_count());
     return true;
@@ -127,7 +133,7 @@ void step_refine(State& s, const std::atomic<bool>& cancel) {
     if (s.mesh.vertices.size() != before) publish_mesh(s);
     if (!done) return;
     // It asks its probes last: they tell how wrong the light is, and make none of it.
-    if (!gathering && !ask_probes(s, cancel)) return;
+    if (!gathering && !step_probes(s, cancel)) return;
     if (!s.refined) take_indirect_level(s);
     s.refined = true;
     // The rays there are ended at vertices of the mesh before.

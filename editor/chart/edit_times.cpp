@@ -16,8 +16,10 @@ std::optional<EditTimes> edit_times(Scene scene, double time_limit, const std::a
         return !cancel && solution.status().settled;
     };
     if (!settled()) return {};
-    std::array<double, 5> paint{}, dimmer{};
+    std::array<double, 5> paint{}, dimmer{}, spectrum{};
     const auto seconds = [&](SolveFrom from) -> std::optional<double> {
+        while (solution.prepare_edits(cancel)) {
+        }
         solution.update(std::make_shared<const Scene>(scene), from);
         if (!settled()) return {};
         return solution.status().last_edit_seconds;
@@ -28,12 +30,13 @@ std::optional<EditTimes> edit_times(Scene scene, double time_limit, const std::a
         const auto painted = seconds(SolveFrom::reflectance);
         scene.luminaires[k % scene.luminaires.size()].dimmer = 0.3 + step;
         const auto dimmed = seconds(SolveFrom::sources);
-        if (!painted || !dimmed) return {};
-        paint[k] = *painted, dimmer[k] = *dimmed;
+        scene.luminaires[k % scene.luminaires.size()].spectrum = Blackbody{2700 + 5000 * step};
+        const auto recoloured = seconds(SolveFrom::sources);
+        if (!painted || !dimmed || !recoloured) return {};
+        paint[k] = *painted, dimmer[k] = *dimmed, spectrum[k] = *recoloured;
     }
-    std::ranges::sort(paint);
-    std::ranges::sort(dimmer);
-    return EditTimes{paint[2], dimmer[2]};
+    for (auto* times : {&paint, &dimmer, &spectrum}) std::ranges::sort(*times);
+    return EditTimes{paint[2], dimmer[2], spectrum[2]};
 }
 
 } // namespace lueur

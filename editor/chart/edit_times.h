@@ -8,9 +8,11 @@
 
 namespace lueur {
 
+// As by hand: between two edits the solver has the time to prepare for the next (Solution::prepare_edits).
 struct EditTimes {          // s of solving until the scene has settled again; medians of five edits
     double reflectance = 0; // of one material after the other
     double dimmer = 0;      // of one luminaire after the other
+    double spectrum = 0;    // ditto: another black body
 };
 
 // With the scene's own solver and target error, within `time_limit` s of solving for the first solution. Nothing: it

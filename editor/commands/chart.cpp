@@ -92,8 +92,8 @@ int chart_methods(const ChartCommand& command, BatchSession& session) {
     print_front(chart);
     for (const std::string& line : failures_of(chart)) fmt::print("{}\n", line);
     if (edits)
-        fmt::print("Settled after an edit (median of 5): reflectance {:.1f} ms, dimmer {:.1f} ms\n",
-                   1e3 * edits->reflectance, 1e3 * edits->dimmer);
+        fmt::print("Settled after an edit (median of 5): reflectance {:.1f} ms, dimmer {:.1f} ms, spectrum {:.1f} ms\n",
+                   1e3 * edits->reflectance, 1e3 * edits->dimmer, 1e3 * edits->spectrum);
     return exit_done;
 }
 

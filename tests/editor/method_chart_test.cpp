@@ -222,7 +222,7 @@ TEST(ChartTable, TellsEveryFaultWithItsPlace) {
     EXPECT_THAT(faults.error()[1], HasSubstr("end is \"exhausted\"; allowed: settled, unfinished, "));
     text = chart_table(small_method_chart());
     text += "jacobi,hemicube\n";
-    EXPECT_THAT(parse_chart_table(text, "a.csv").error().front(), HasSubstr(": 2 columns; 21 are needed"));
+    EXPECT_THAT(parse_chart_table(text, "a.csv").error().front(), HasSubstr(": 2 columns; 22 are needed"));
 }
 
 TEST(ChartPicture, DrawsEveryMethodAndMarksWhatFailed) {
@@ -292,6 +292,7 @@ TEST(EditTimes, AreThoseOfASceneThatSettles) {
     ASSERT_TRUE(times);
     EXPECT_GT(times->reflectance, 0);
     EXPECT_GT(times->dimmer, 0);
+    EXPECT_GT(times->spectrum, 0);
     EXPECT_FALSE(edit_times(test::small_room(), 1e-9, test::never)) << "no time";
     const std::atomic<bool> always{true};
     EXPECT_FALSE(edit_times(test::small_room(), 60, always));

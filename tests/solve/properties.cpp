@@ -105,6 +105,8 @@ TEST(Gathering, RandomEditsSettleWhereAFreshSolveDoes) {
             edited.update(std::make_shared<const Scene>(scene), from);
             for (std::size_t steps = pick(12); steps > 0 && edited.step(test::never); --steps) {
             }
+            for (std::size_t steps = pick(40); steps > 0 && edited.prepare_edits(test::never); --steps) {
+            }
         }
         if (round % 4 != 3) continue;
         test::settle(edited);
@@ -165,7 +167,7 @@ TEST(Shooting, FurnaceAndGatheringAgree) {
     for (const glm::vec3& h : furnace_field->irradiance_xyz) ASSERT_NEAR(h.y * scale, 2, 0.03);
 
     Scene room = test::small_room();
-    room.solve.element_size = 0.3;
+    room.solve.element_size = 0.3, room.solve.target_error = 0.02;
     const Solution gathered = test::solved(room);
     room.solve.solver = SolverKind::shooting;
     const Solution shot = test::solved(room);
@@ -178,6 +180,7 @@ TEST(Shooting, FurnaceAndGatheringAgree) {
 TEST(Shooting, LuminairesShootFirstAndTheAmbientTermFillsIn) {
     Scene scene = test::small_room();
     scene.solve.solver = SolverKind::shooting;
+    scene.solve.element_size = 0.5;
     Solution solution(std::make_shared<const Scene>(scene));
     while (solution.status().shots < 1) ASSERT_TRUE(solution.step(test::never));
     EXPECT_EQ(solution.status().shooting_patch, no_index); // a luminaire, not a patch

@@ -12,9 +12,9 @@
 #include "core/view/picture.h"
 #include "core/view/radiance_channels.h"
 #include "core/view/spectral_picture.h"
-#include "core/view/surface_points.h"
 #include "tests/support/scenes.h"
 #include "tests/support/source_folder.h"
+#include "tests/support/stored_irradiance.h"
 
 using namespace lueur;
 
@@ -54,9 +54,8 @@ TEST(Accuracy, CornellBoxAgainstTracedPaths) {
     Solution solution(std::make_shared<const Scene>(loaded->scene));
     test::settle(solution);
     ASSERT_TRUE(solution.status().settled);
-    const auto points = surface_points(solution, 1000, 1);
-    // 4,096 paths leave about 1 % noise at a point, which counts against us.
-    const auto truth = measure_points(solution, points, {MeasureAt::reference, 4096, 9}, test::never);
+    const auto [points, truth] = test::stored_irradiance("cornell_illuminance.csv"); // to 0.3 % a point
+    ASSERT_EQ(points.size(), 1000u);
     const Errors field =
         relative_errors(measure_points(solution, points, {MeasureAt::field, 0, 1}, test::never), truth);
     const Errors gather =
@@ -73,6 +72,29 @@ TEST(Accuracy, CornellBoxAgainstTracedPaths) {
     EXPECT_LT(field.percentile99, 0.1); // contacts and penumbrae
     EXPECT_LT(gather.rms, 0.05);
     EXPECT_LT(gather.median, 0.015);
+}
+
+// What is stored is what the path tracer says of the scene as it is: the deviations, in standard errors, are a normal
+// distribution's.
+TEST(Accuracy, StoredIrradianceIsOfToday) {
+    auto loaded = load_scene(test::source_folder() / "assets/cornell.toml");
+    ASSERT_TRUE(loaded) << loaded.error().front();
+    Solution solution(std::make_shared<const Scene>(loaded->scene));
+    while (!solution.world()) solution.step(test::never);
+    auto [points, truth] = test::stored_irradiance("cornell_illuminance.csv");
+    ASSERT_EQ(points.size(), 1000u);
+    points.resize(300);
+    const auto traced = measure_points(solution, points, {MeasureAt::reference, 256, 4}, test::never);
+    double sum = 0, square = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const double error = std::hypot(truth[i].illuminance_lx * truth[i].standard_error_percent,
+                                        traced[i].illuminance_lx * traced[i].standard_error_percent) /
+                             100;
+        const double deviation = (traced[i].illuminance_lx - truth[i].illuminance_lx) / error;
+        sum += deviation, square += deviation * deviation;
+    }
+    EXPECT_LT(std::abs(sum / 300), 3.5 / std::sqrt(300.0));
+    EXPECT_NEAR(square / 300, 1.15, 0.45); // 16 batches know their error to 18 %
 }
 
 // A cube lit by its ceiling, rho = 0.8: radiosity with gradients agrees with traced paths on the mean of a wall. One
