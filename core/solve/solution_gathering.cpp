@@ -15,7 +15,7 @@ constexpr double residual_target = 2e-4;             // |r| / |b|, worst channel
 constexpr double first_residual_target = 5e-3;       // of the first picture, whose rays know no more
 constexpr double residuals_in_a_sum = 4;             // a sum of bases may have more of it than each
 constexpr std::uint32_t most_gathering_sweeps = 400; // a system that needs more does not converge
-constexpr std::uint32_t first_passes = 2;            // before the mesh is refined
+constexpr std::uint32_t coarse_passes = 2;           // before the mesh is refined
 constexpr double smoothing_farthest = 3;             // coarse element sizes
 constexpr double ray_share = 0.7; // of the target error that the rays may take; interpolation has the rest
 
@@ -329,8 +329,8 @@ void step_gathering(State& s, const std::atomic<bool>& cancel) {
     }
     take_stock_of_gathering(s); // a settled solution is judged when it is shown
     // First what tells most: rays, as long as they are few, then shadows' edges and contacts.
-    const bool more_rays = s.fully_refined() || (!s.refined && s.passes.size() < first_passes);
-    if (!s.refined && more_rays) s.passes_wanted = std::min(first_passes, 2 * s.passes_wanted);
+    const bool more_rays = s.fully_refined() || (!s.refined && s.passes.size() < coarse_passes);
+    if (!s.refined && more_rays) s.passes_wanted = std::min(coarse_passes, 2 * s.passes_wanted);
     s.phase = more_rays ? SolvePhase::transport : SolvePhase::refine;
 }
 
