@@ -34,14 +34,22 @@ double half_mean(const GatherPass& pass, std::uint32_t receiver, const ScalarRad
 
 } // namespace
 
-std::vector<float> ray_variances(std::span<const GatherPass> passes, const ScalarRadiosity& radiosity) {
+std::vector<float> SmoothedReceivers::of(const std::vector<float>& at_receivers) const {
+    std::vector<float> values;
+    values.reserve(of_vertex.size());
+    for (const std::uint32_t r : of_vertex) values.push_back(at_receivers[r]);
+    smooth(smoothing, values);
+    return values;
+}
+
+std::vector<float> half_differences(std::span<const GatherPass> passes, const ScalarRadiosity& radiosity) {
     const std::uint32_t n = static_cast<std::uint32_t>(radiosity.indirect.size());
-    std::vector<float> variance(n, 0);
+    std::vector<float> difference(n, 0);
     ScalarRadiosity b = radiosity;
     b.indirect.push_back(0);
     b.direct.push_back(0);
     const std::size_t pairs = passes.size() / independent_sets * independent_sets;
-    if (passes.empty()) return variance;
+    if (passes.empty()) return difference;
     tbb::parallel_for(Range(0, n, 256), [&](const Range& range) {
         for (std::uint32_t i = range.begin(); i < range.end(); ++i) {
             double sets[independent_sets] = {};
@@ -49,15 +57,14 @@ std::vector<float> ray_variances(std::span<const GatherPass> passes, const Scala
                 for (int half = 0; half < independent_sets; ++half) sets[half] = half_mean(passes[0], i, b, half);
             for (std::size_t p = 0; p < pairs; ++p)
                 sets[p % independent_sets] += independent_sets * pass_mean(passes[p], i, b) / double(pairs);
-            variance[i] =
-                static_cast<float>((pairs == 0 ? of_halves : 1) * (sets[0] - sets[1]) * (sets[0] - sets[1]) / 4);
+            difference[i] = static_cast<float>((pairs == 0 ? std::sqrt(of_halves) : 1) * (sets[0] - sets[1]) / 2);
         }
     });
-    return variance;
+    return difference;
 }
 
-double relative_ray_error(std::span<const float> irradiance, std::span<const float> variance,
-                          std::span<const float> weight) {
+double relative_ray_error(std::span<const float> irradiance, std::span<const float> shown_difference,
+                          std::span<const float> weight, const SmoothedReceivers& smoothed) {
     double area = 0, flux = 0;
     for (std::size_t i = 0; i < weight.size(); ++i) area += weight[i], flux += double(weight[i]) * irradiance[i];
     if (!(flux > 0)) return 0;
@@ -65,14 +72,15 @@ double relative_ray_error(std::span<const float> irradiance, std::span<const flo
     double sum = 0, counted = 0;
     for (std::size_t i = 0; i < weight.size(); ++i) {
         if (weight[i] <= 0 || irradiance[i] < dark) continue;
-        sum += double(weight[i]) * variance[i] / (double(irradiance[i]) * irradiance[i]);
+        const double relative = double(shown_difference[smoothed.vertex[i]]) / irradiance[i];
+        sum += double(weight[i]) * relative * relative;
         counted += weight[i];
     }
     return counted > 0 ? std::sqrt(sum / counted) : 0;
 }
 
-double grey_ray_error(std::span<const GatherPass> passes, std::span<const std::uint32_t> receiver_vertex,
-                      std::span<const float> fine_direct, std::span<const float> weight) {
+double grey_ray_error(std::span<const GatherPass> passes, std::span<const float> fine_direct,
+                      std::span<const float> weight, const SmoothedReceivers& smoothed) {
     if (passes.size() < independent_sets || passes.size() % independent_sets != 0) return 1;
     const std::uint32_t n = static_cast<std::uint32_t>(weight.size());
     ScalarRadiosity b{std::vector<float>(n + 1, 0), std::vector<float>(fine_direct.begin(), fine_direct.end())};
@@ -92,8 +100,8 @@ double grey_ray_error(std::span<const GatherPass> passes, std::span<const std::u
     b.indirect.pop_back();
     b.direct.pop_back();
     std::vector<float> irradiance(n); // of a solution, what arrives is what is reflected over grey
-    for (std::uint32_t i = 0; i < n; ++i) irradiance[i] = fine_direct[receiver_vertex[i]] + b.indirect[i] / grey;
-    return relative_ray_error(irradiance, ray_variances(passes, b), weight);
+    for (std::uint32_t i = 0; i < n; ++i) irradiance[i] = fine_direct[smoothed.vertex[i]] + b.indirect[i] / grey;
+    return relative_ray_error(irradiance, smoothed.of(half_differences(passes, b)), weight, smoothed);
 }
 
 } // namespace lueur

@@ -179,6 +179,7 @@ void Solution::update(std::shared_ptr<const Scene> scene, SolveFrom stale) {
         s.solving = false; // nothing of the old radiosities can be used
     if (s.solver() != solver_before) forget_other_solvers(s);
     if (stale == SolveFrom::transport || now.target_error != before.target_error || now.max_rays != before.max_rays) {
+        s.kept_hits.clear();
         s.passes.clear(); // the number of rays follows from the settings, never from what was there before
         s.pass_open = false;
         if (s.solver() == SolverKind::gathering || s.solver() == SolverKind::hierarchical) s.solving = false;

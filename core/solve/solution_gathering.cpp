@@ -13,7 +13,10 @@ namespace {
 
 constexpr double residual_target = 2e-4;             // |r| / |b|, worst channel
 constexpr double residuals_in_a_sum = 4;             // a sum of bases may have more of it than each
+constexpr double first_residual_target = 5e-3;       // of the first picture, whose rays know no more
 constexpr std::uint32_t most_gathering_sweeps = 400; // a system that needs more does not converge
+constexpr std::uint32_t first_passes = 2;            // before the mesh is refined
+constexpr double smoothing_farthest = 3;             // coarse element sizes
 constexpr double ray_share = 0.7; // of the target error that the rays may take; interpolation has the rest
 
 using State = Solution::State;
@@ -67,13 +70,16 @@ ChannelField reflected_direct(const State& s, const Exitances& exitance) {
     return b;
 }
 
-// Equal-flux direct irradiance at all vertices: what the ray budget looks at.
-std::vector<float> equal_flux_direct(const State& s) {
-    std::vector<float> direct(s.mesh.vertices.size(), 0);
-    for (std::size_t v = 0; v < direct.size(); ++v)
-        for (std::size_t l = 0; l < s.direct->emitter_count(); ++l)
-            if (s.direct->emitters()[l].area > 0)
-                direct[v] += s.direct->at_vertex(static_cast<std::uint32_t>(v))[l] / s.direct->emitters()[l].area;
+SmoothedReceivers smoothed_receivers(const State& s) {
+    return {s.receivers.of_vertex, s.receivers.vertex, s.smoothing};
+}
+
+// Direct irradiance at all vertices of luminaires as guessed: what the ray budget looks at.
+std::vector<float> guessed_direct(const State& s) {
+    std::vector<float> direct;
+    direct.reserve(s.mesh.vertices.size());
+    for (std::uint32_t v = 0; v < s.mesh.vertices.size(); ++v)
+        direct.push_back(s.direct->guessed_light(s.direct->at_vertex(v)));
     return direct;
 }
 
@@ -119,15 +125,15 @@ void take_stock_of_gathering(State& s) {
         for (std::size_t l = 0; l < exitance.size(); ++l) radiosity.direct[v] += static_cast<float>(d[l] * on_paint[l]);
     }
 
-    const std::vector<float> variance = ray_variances(s.passes, radiosity);
-    s.indirect_deviation.resize(s.receivers.of_vertex.size());
-    for (std::uint32_t v = 0; v < s.indirect_deviation.size(); ++v)
-        s.indirect_deviation[v] = std::sqrt(variance[s.receivers.of_vertex[v]]);
+    const SmoothedReceivers smoothed = smoothed_receivers(s);
+    s.indirect_deviation = smoothed.of(half_differences(s.passes, radiosity));
+    for (float& d : s.indirect_deviation) d = std::abs(d);
     const std::vector<float> areas = receiver_areas(s);
     const double unsolved = gathering_missing_share(s, areas, direct);
     for (std::uint32_t i = 0; i < receivers; ++i)
         direct[i] += static_cast<float>(luminous(s, s.gathered_direct[i]) + luminous(s, s.system.gathered()[i]));
-    const double rays = s.passes.size() % independent_sets == 0 ? relative_ray_error(direct, variance, areas) : 1;
+    const double rays =
+        s.passes.size() % independent_sets == 0 ? relative_ray_error(direct, s.indirect_deviation, areas, smoothed) : 1;
     const double interpolation = s.direct->misfit();
     s.status.estimated_error =
         std::min(1.0, std::sqrt(rays * rays + unsolved * unsolved + interpolation * interpolation));
@@ -174,6 +180,13 @@ void refresh_indirect(State& s) {
         for (int c = 0; c < s.channels(); ++c)
             s.indirect_irradiance[v][c] = s.gathered_direct[i][c] + s.system.gathered()[i][c];
     }
+    smooth(s.smoothing, s.indirect_irradiance);
+}
+
+void renew_smoothing(State& s) {
+    s.smoothing = make_smoothing(s.mesh, s.mesh.indirect_elements, s.buried, s.indirect_distance,
+                                 smoothing_reach(static_cast<std::uint32_t>(s.passes.size()) * rays_per_pass),
+                                 static_cast<float>(smoothing_farthest * s.element_size));
 }
 
 LightBasesRoom room_for_bases(const State& s) {
@@ -189,6 +202,7 @@ void gather_direct(State& s, bool new_rays) {
     if (new_rays) {
         s.light_bases.forget();
         s.system.set_rows(s.passes);
+        renew_smoothing(s);
     }
     s.light_bases.keep_for(room_for_bases(s), s.material_rho);
     if (auto known = s.light_bases.sum(s.luminaire_exitance)) {
@@ -217,7 +231,7 @@ void plan_passes(State& s) {
     const std::uint32_t now = static_cast<std::uint32_t>(s.passes.size());
     if (s.rays_planned || now < s.passes_wanted) return;
     const double target = ray_share * s.scene->solve.target_error;
-    const double error = grey_ray_error(s.passes, s.receivers.vertex, equal_flux_direct(s), receiver_areas(s));
+    const double error = grey_ray_error(s.passes, guessed_direct(s), receiver_areas(s), smoothed_receivers(s));
     if (error <= target || now >= most_passes(s)) {
         s.rays_planned = true;
         return;
@@ -231,6 +245,7 @@ void plan_passes(State& s) {
 } // namespace
 
 void start_gathering(State& s, bool same_sources) {
+    s.only_probes_left = false;
     if (std::exchange(s.pass_open, false)) s.passes.pop_back(); // half traced: again
     if (s.passes.empty()) {
         // The number of rays follows from the settings and the geometry, never from what was there before.
@@ -247,30 +262,50 @@ void start_gathering(State& s, bool same_sources) {
 void trace_gathering_rows(State& s, const std::atomic<bool>& cancel) {
     s.status.stage = SolveStage::gathering_rays;
     if (!s.pass_open) {
-        s.passes.push_back(make_gather_pass(s.mesh, s.receivers));
+        // Rays of the level before end elsewhere now, and are not traced again; on this one they are kept in turn, if
+        // there is another to come.
+        std::vector<RayHit> hits;
+        const std::size_t rays = std::size_t(s.receivers.count()) * rays_per_pass;
+        if (s.passes.size() < s.kept_hits.size()) hits = std::move(s.kept_hits[s.passes.size()]);
+        if (!s.refined) hits.resize(rays);
+        s.passes.push_back(make_gather_pass(s.mesh, s.receivers, std::move(hits)));
         s.cursor = 0;
         s.pass_open = true;
     }
     const std::uint32_t pass = static_cast<std::uint32_t>(s.passes.size()) - 1;
     const std::vector<std::uint8_t> buried = s.all_buried();
-    if (!run_slice(s.cursor, s.receivers.count(), 64, cancel, [&](std::uint32_t first, std::uint32_t last) {
-            trace_gather_rays(*s.world, s.mesh, s.origins, s.receivers, buried, s.scene->solve.seed, pass, first, last,
-                              s.passes.back());
-        }))
-        return;
+    std::atomic<std::uint64_t> traced{0};
+    const bool done =
+        run_slice(s.cursor, s.receivers.count(), 64, cancel, [&](std::uint32_t first, std::uint32_t last) {
+            traced.fetch_add(trace_gather_rays(*s.world, s.mesh, s.origins, s.receivers, buried, s.scene->solve.seed,
+                                               pass, first, last, s.passes.back()),
+                             std::memory_order_relaxed);
+        });
+    s.status.rays += traced.load();
+    if (!done) return;
     s.pass_open = false;
-    s.status.rays += std::uint64_t(s.receivers.count()) * rays_per_pass;
+    if (s.refined) s.passes.back().hits = {};
     s.status.rays_per_receiver = static_cast<std::uint32_t>(s.passes.size()) * rays_per_pass;
     s.status.row_entries = std::uint64_t(s.receivers.count()) * s.status.rays_per_receiver;
     if (s.passes.size() < s.passes_wanted) return;
+    if (s.passes.size() < s.kept_hits.size()) { // seen already, on the level before: no picture of them
+        renew_smoothing(s);
+        plan_passes(s);
+        if (s.passes.size() < s.passes_wanted) return;
+    }
     gather_direct(s, true);
     s.phase = SolvePhase::solve;
 }
 
 void step_gathering(State& s, const std::atomic<bool>& cancel) {
     s.status.stage = SolveStage::solving;
+    if (s.only_probes_left) {
+        if (ask_probes(s, cancel)) settle(s);
+        return;
+    }
     if (s.status.sweeps == 0 && has_no_finite_solution(s)) return fail(s, no_finite_solution);
-    if (s.system.relative_residual() > residual_target) {
+    const double target = s.refined ? residual_target : first_residual_target;
+    if (s.system.relative_residual() > target) {
         if (!s.system.sweep(s.passes, cancel)) return;
         ++s.status.sweeps;
         refresh_indirect(s);
@@ -279,12 +314,21 @@ void step_gathering(State& s, const std::atomic<bool>& cancel) {
     }
     s.status.unshot_share = unshot_flux_share(s);
     s.status.residual = s.system.relative_residual();
-    if (s.system.relative_residual() > residual_target) return;
+    if (s.system.relative_residual() > target) return;
     s.rays_unjudged = true;
     if (s.refined) plan_passes(s);
-    if (s.refined && s.passes.size() >= s.passes_wanted) return settle(s);
+    if (s.refined && s.passes.size() >= s.passes_wanted && s.probes.complete()) return settle(s);
     take_stock_of_gathering(s); // a settled solution is judged when it is shown
-    s.phase = s.refined ? SolvePhase::transport : SolvePhase::refine;
+    if (s.refined) {
+        s.only_probes_left = s.passes.size() >= s.passes_wanted;
+        if (!s.only_probes_left) s.phase = SolvePhase::transport;
+    } else if (s.passes.size() < first_passes) {
+        // First what tells most: rays, as long as they are few, then shadows' edges and contacts.
+        s.passes_wanted = std::min(first_passes, 2 * s.passes_wanted);
+        s.phase = SolvePhase::transport;
+    } else {
+        s.phase = SolvePhase::refine;
+    }
 }
 
 // One sweep, or what comes before the first: of what one luminaire does alone, or of what is shown, from which edits

@@ -38,8 +38,8 @@ ChannelField direct_of(const State& s, const std::vector<float>& coarse_direct, 
 }
 
 Shooting::Scenery scenery_of(const State& s) {
-    Shooting::Scenery scenery{
-        s.origins, {}, s.buried, {}, std::vector<std::uint8_t>(s.luminaire_exitance.size(), 1), 1};
+    Shooting::Scenery scenery{s.origins, {}, s.buried, {}, std::vector<std::uint8_t>(s.luminaire_exitance.size(), 1),
+                              1};
     for (const std::uint8_t lit : s.around.lit) {
         scenery.lit.push_back(static_cast<float>(lit) / burial_rays);
         scenery.closed.push_back(lit == burial_rays);

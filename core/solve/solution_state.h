@@ -16,6 +16,7 @@
 #include "core/solve/light_bases.h"
 #include "core/solve/patch_solve.h"
 #include "core/solve/shooting.h"
+#include "core/solve/smoothing.h"
 #include "core/solve/solution.h"
 #include "core/solve/wavelengths_choice.h"
 #include "core/transport/direct_transport.h"
@@ -54,9 +55,11 @@ struct Solution::State {
     // of indirect light.
     std::vector<glm::vec3> origins;
     std::vector<std::uint8_t> buried;
-    std::vector<float> indirect_area; // m^2
-    Receivers receivers;              // who gathers for them
-    Surroundings around;              // of coarse vertices
+    std::vector<float> indirect_area;     // m^2
+    std::vector<float> indirect_distance; // m, to what is around, harmonic mean
+    Smoothing smoothing;                  // of what is gathered there
+    Receivers receivers;                  // who gathers for them
+    Surroundings around;                  // of coarse vertices
     Overlap overlap;
     std::unique_ptr<IndirectRefinement> indirect_refinement; // cuts `mesh` first
     struct IndirectLevel {                                   // what came of it
@@ -64,12 +67,15 @@ struct Solution::State {
         std::vector<glm::uvec3> elements;
         std::vector<glm::vec3> origins;
         std::vector<std::uint8_t> buried;
+        std::vector<float> distance;
     };
     std::optional<IndirectLevel> indirect_level; // not in use yet: rows that are there refer to the coarse one
     std::vector<GatherPass> passes;
-    bool pass_open = false;          // the last pass is being traced
-    std::uint32_t passes_wanted = 1; // from the geometry alone: see passes_for
-    bool rays_planned = false;       // passes_wanted will not grow any more
+    std::vector<std::vector<RayHit>> kept_hits; // of each pass, while the mesh it was traced on still grows
+    bool pass_open = false;                     // the last pass is being traced
+    std::uint32_t passes_wanted = 1;            // from the geometry alone: see passes_for
+    bool only_probes_left = false;              // gathering is solved, and asks how right it is
+    bool rays_planned = false;                  // passes_wanted will not grow any more
     bool refined = false;
     double element_size = 0;        // m, longest coarse edge in use
     std::vector<float> coarse_area; // m^2 of each coarse vertex

@@ -46,12 +46,12 @@ std::vector<float> flux_weights(const Solution::State& s);
 
 // Transport that all share: solution_transport.cpp.
 void publish_mesh(Solution::State& s); // the mesh has grown
-// Probes of the mesh as it is: placed when there are none, then traced by one time slice; true at the end.
-bool step_probes(Solution::State& s, const std::atomic<bool>& cancel);
 void step_mesh(Solution::State& s);
 void step_sketch(Solution::State& s, const std::atomic<bool>& cancel);
 void step_light(Solution::State& s, const std::atomic<bool>& cancel);
 void step_burial(Solution::State& s, const std::atomic<bool>& cancel);
+// Places and traces the points where the solution is asked whether it is right; true at the end.
+bool ask_probes(Solution::State& s, const std::atomic<bool>& cancel);
 void step_refine(Solution::State& s, const std::atomic<bool>& cancel); // direct light on the fine mesh
 
 // Gathering on kept rows: solution_gathering.cpp.

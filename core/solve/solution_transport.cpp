@@ -29,7 +29,8 @@ bool refine_indirect(State& s, const std::atomic<bool>& cancel) {
     if (!done) return false;
     s.indirect_level.emplace(static_cast<std::uint32_t>(s.mesh.vertices.size()),
                              static_cast<std::uint32_t>(s.mesh.nodes.size()), s.mesh.elements,
-                             s.indirect_refinement->origins(), s.indirect_refinement->buried());
+                             s.indirect_refinement->origins(), s.indirect_refinement->buried(),
+                             s.indirect_refinement->distance());
     s.indirect_refinement.reset();
     return true;
 }
@@ -42,6 +43,7 @@ void take_indirect_level(State& s) {
     s.indirect_area = vertex_areas(s.mesh, s.mesh.indirect_elements, level.vertices);
     s.origins.insert(s.origins.end(), level.origins.begin() + s.mesh.coarse_vertex_count, level.origins.end());
     s.buried.insert(s.buried.end(), level.buried.begin() + s.mesh.coarse_vertex_count, level.buried.end());
+    s.indirect_distance = std::move(level.distance);
     add_receivers(level.vertices, s.buried, s.receivers);
     s.status.receivers = s.receivers.count();
 }
@@ -92,6 +94,7 @@ void step_burial(State& s, const std::atomic<bool>& cancel) {
             find_buried(*s.world, s.mesh, s.origins, first, last, s.buried, &s.around);
         }))
         return;
+    s.indirect_distance = s.around.distance;
     if (!find_overlap(s.mesh, *s.world, s.buried, cancel, s.overlap)) return;
     s.status.rays += std::uint64_t(s.mesh.coarse_vertex_count) * burial_rays + s.mesh.coarse_element_count;
     s.receivers = make_receivers(*s.scene, s.mesh, s.buried, static_cast<float>(receiver_cell * s.element_size));
@@ -101,7 +104,8 @@ void step_burial(State& s, const std::atomic<bool>& cancel) {
     start_solver(s);
 }
 
-bool step_probes(State& s, const std::atomic<bool>& cancel) {
+bool ask_probes(State& s, const std::atomic<bool>& cancel) {
+    if (s.probes.complete()) return true;
     const std::vector<std::uint8_t> buried = s.all_buried();
     const std::uint32_t seed = s.scene->solve.seed;
     if (s.probes.points.empty()) {
@@ -123,10 +127,14 @@ void step_refine(State& s, const std::atomic<bool>& cancel) {
     const bool done = refine_indirect(s, cancel) && s.direct->light_vertices(cancel) && s.direct->refine(cancel);
     if (s.mesh.vertices.size() != before) publish_mesh(s);
     if (!done) return;
-    if (!step_probes(s, cancel)) return;
+    // Gathering asks its probes last: they tell how wrong the light is, and make none of it.
+    if (s.solver() != SolverKind::gathering && !ask_probes(s, cancel)) return;
     take_indirect_level(s);
     s.refined = true;
     // The first picture's rays ended at vertices of the mesh before.
+    s.kept_hits.clear();
+    for (GatherPass& pass : s.passes) s.kept_hits.push_back(std::move(pass.hits));
+    if (s.pass_open) s.kept_hits.pop_back();
     s.passes.clear();
     start_solver(s);
 }

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <numeric>
+#include <span>
 
 #include "core/transport/emitter_visibility.h"
 #include "core/transport/polygon_form_factor.h"
@@ -18,9 +21,11 @@ constexpr int probe_points = 6;    // settle the fully lit and the fully dark
 constexpr float far_diameters = 4; // from here on points replace the exact formula
 constexpr std::size_t most_exact_triangles = 64;
 constexpr std::size_t few_triangles = 4; // no dearer than the points
+constexpr std::size_t most_parts = 16;   // of a luminaire
 // Of the visible share when half is seen: an edge cuts about sqrt(n) of n strata, each of which is then in or out by
 // chance: sqrt(sqrt(n) / 6) / n.
 constexpr double point_penumbra_deviation = 0.028;
+constexpr double probe_penumbra_deviation = 0.12; // ditto, of six probes at the rim
 
 double exact_form_factor(const Emitter& emitter, glm::vec3 origin, glm::vec3 normal) {
     double sum = 0;
@@ -36,7 +41,48 @@ bool nothing_arrives(const Emitter& emitter, glm::vec3 origin, glm::vec3 normal)
     return emitter.area <= 0 || glm::dot(emitter.centre - origin, normal) <= -emitter.radius;
 }
 
-void add_triangles(const Scene& scene, const Luminaire& luminaire, Emitter& emitter) {
+// Whether the exact formula is worth its time: near, or where there are few triangles.
+bool is_exact(const Emitter& emitter, glm::vec3 origin) {
+    const bool near = glm::length(emitter.centre - origin) < far_diameters * 2 * emitter.radius;
+    return emitter.triangles.size() <= (near ? most_exact_triangles : few_triangles);
+}
+
+double far_form_factor(const Emitter& emitter, glm::vec3 origin, glm::vec3 normal) {
+    double sum = 0;
+    for (const EmitterPoint& p : emitter.points) sum += double(emitter_kernel(origin, normal, p));
+    return sum * emitter.area / (std::numbers::pi * static_cast<double>(emitter.points.size()));
+}
+
+struct PointsSeen {
+    int facing = 0, count = 0;   // points that face the receiver, and of those the seen ones
+    double all = 0, visible = 0; // the same, of cos cos / r^2
+};
+
+PointsSeen look_at(const World& world, std::span<const EmitterPoint> points, glm::vec3 origin, glm::vec3 normal) {
+    PointsSeen seen;
+    std::array<glm::vec3, World::packet> targets;
+    std::array<double, World::packet> kernels;
+    std::size_t waiting = 0;
+    const auto trace = [&] {
+        if (waiting == 0) return;
+        const std::uint32_t hidden = world.hidden(origin, std::span(targets).first(waiting));
+        for (std::size_t k = 0; k < waiting; ++k)
+            if (!(hidden >> k & 1)) seen.count += 1, seen.visible += kernels[k];
+        waiting = 0;
+    };
+    for (const EmitterPoint& p : points) {
+        const double kernel = double(emitter_kernel(origin, normal, p));
+        if (!(kernel > 0)) continue;
+        seen.facing += 1, seen.all += kernel;
+        targets[waiting] = p.position, kernels[waiting] = kernel;
+        if (++waiting == World::packet) trace();
+    }
+    trace();
+    return seen;
+}
+
+std::vector<EmitterTriangle> luminaire_triangles(const Scene& scene, const Luminaire& luminaire) {
+    std::vector<EmitterTriangle> triangles;
     const Geometry& geometry = *scene.geometry;
     std::vector<bool> lit(scene.objects.size(), false);
     for (const ObjectIndex o : luminaire.objects) lit[at(o)] = true;
@@ -48,9 +94,10 @@ void add_triangles(const Scene& scene, const Luminaire& luminaire, Emitter& emit
         const glm::vec3 normal = glm::cross(b - a, c - a);
         const float length = glm::length(normal);
         if (!(length > 0)) continue;
-        if (luminaire.side != EmitSide::back) emitter.triangles.push_back({{a, b, c}, normal / length, length / 2});
-        if (luminaire.side != EmitSide::front) emitter.triangles.push_back({{a, c, b}, -normal / length, length / 2});
+        if (luminaire.side != EmitSide::back) triangles.push_back({{a, b, c}, normal / length, length / 2});
+        if (luminaire.side != EmitSide::front) triangles.push_back({{a, c, b}, -normal / length, length / 2});
     }
+    return triangles;
 }
 
 // Greedily the farthest from those chosen, of the stratified points, first the one farthest from the centre.
@@ -67,6 +114,73 @@ void choose_probes(Emitter& emitter) {
         last = emitter.points[best].position;
         emitter.probes.push_back(emitter.points[best]);
     }
+}
+
+Emitter make_emitter(std::vector<EmitterTriangle> triangles) {
+    Emitter e;
+    e.triangles = std::move(triangles);
+    if (e.triangles.empty()) return e;
+    glm::vec3 low(1e30f), high(-1e30f);
+    for (const EmitterTriangle& t : e.triangles) {
+        e.area += t.area;
+        e.cumulative_area.push_back(e.area);
+        for (const glm::vec3& c : t.corners) low = glm::min(low, c), high = glm::max(high, c);
+    }
+    e.centre = 0.5f * (low + high);
+    for (const EmitterTriangle& t : e.triangles)
+        for (const glm::vec3& c : t.corners) e.radius = std::max(e.radius, glm::length(c - e.centre));
+    for (int k = 0; k < shadow_points; ++k)
+        e.points.push_back(emitter_point(e, r2_point(static_cast<std::uint32_t>(k), {0, 0})));
+    e.middle = *std::ranges::min_element(e.points, {}, [&](const EmitterPoint& p) {
+        const glm::vec3 d = p.position - e.centre;
+        return glm::dot(d, d);
+    });
+    choose_probes(e);
+    return e;
+}
+
+// Halves, of those along the longest side, until there are few enough.
+void halve(std::vector<std::vector<EmitterTriangle>> pieces, std::size_t most,
+           std::vector<std::vector<EmitterTriangle>>& out) {
+    if (most <= 1 || pieces.size() <= 1) {
+        std::vector<EmitterTriangle> one;
+        for (const auto& piece : pieces) one.insert(one.end(), piece.begin(), piece.end());
+        if (!one.empty()) out.push_back(std::move(one));
+        return;
+    }
+    glm::vec3 low(1e30f), high(-1e30f);
+    for (const auto& piece : pieces)
+        low = glm::min(low, piece[0].corners[0]), high = glm::max(high, piece[0].corners[0]);
+    const glm::vec3 side = high - low;
+    const int axis = side.x >= side.y && side.x >= side.z ? 0 : side.y >= side.z ? 1 : 2;
+    std::ranges::stable_sort(pieces, {}, [&](const auto& piece) { return piece[0].corners[0][axis]; });
+    const auto middle = pieces.begin() + static_cast<std::ptrdiff_t>(pieces.size() / 2);
+    halve({pieces.begin(), middle}, most / 2, out);
+    halve({middle, pieces.end()}, most - most / 2, out);
+}
+
+// Triangles that hang together by their corners are one piece; of many small ones neighbours are put together.
+std::vector<std::vector<EmitterTriangle>> pieces_apart(std::span<const EmitterTriangle> triangles) {
+    std::vector<std::uint32_t> owner(triangles.size());
+    std::iota(owner.begin(), owner.end(), 0u);
+    const auto root = [&](std::uint32_t t) {
+        while (owner[t] != t) t = owner[t] = owner[owner[t]];
+        return t;
+    };
+    std::map<std::array<float, 3>, std::uint32_t> first_at; // a corner
+    for (std::uint32_t t = 0; t < triangles.size(); ++t)
+        for (const glm::vec3& c : triangles[t].corners) {
+            const auto [found, fresh] = first_at.try_emplace({c.x, c.y, c.z}, t);
+            const std::uint32_t a = root(found->second), b = root(t);
+            owner[std::max(a, b)] = std::min(a, b);
+        }
+    std::map<std::uint32_t, std::vector<EmitterTriangle>> by_root;
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) by_root[root(t)].push_back(triangles[t]);
+    std::vector<std::vector<EmitterTriangle>> pieces, few;
+    for (auto& [first, piece] : by_root) pieces.push_back(std::move(piece));
+    if (pieces.size() <= most_parts) return pieces;
+    halve(std::move(pieces), most_parts, few);
+    return few;
 }
 
 } // namespace
@@ -96,70 +210,73 @@ EmitterPoint emitter_point(const Emitter& emitter, glm::vec2 u) {
 std::vector<Emitter> make_emitters(const Scene& scene) {
     std::vector<Emitter> emitters;
     for (const Luminaire& luminaire : scene.luminaires) {
-        Emitter e;
-        add_triangles(scene, luminaire, e);
-        glm::vec3 low(1e30f), high(-1e30f);
-        for (const EmitterTriangle& t : e.triangles) {
-            e.area += t.area;
-            e.cumulative_area.push_back(e.area);
-            for (const glm::vec3& c : t.corners) low = glm::min(low, c), high = glm::max(high, c);
-        }
-        if (!e.triangles.empty()) {
-            e.centre = 0.5f * (low + high);
-            for (const EmitterTriangle& t : e.triangles)
-                for (const glm::vec3& c : t.corners) e.radius = std::max(e.radius, glm::length(c - e.centre));
-            for (int k = 0; k < shadow_points; ++k)
-                e.points.push_back(emitter_point(e, r2_point(static_cast<std::uint32_t>(k), {0, 0})));
-            choose_probes(e);
-        }
-        emitters.push_back(std::move(e));
+        Emitter emitter = make_emitter(luminaire_triangles(scene, luminaire));
+        std::vector<std::vector<EmitterTriangle>> pieces = pieces_apart(emitter.triangles);
+        if (pieces.size() > 1)
+            for (std::vector<EmitterTriangle>& piece : pieces) emitter.parts.push_back(make_emitter(std::move(piece)));
+        emitters.push_back(std::move(emitter));
     }
     return emitters;
+}
+
+std::vector<float> guessed_exitances(std::span<const Emitter> emitters) {
+    float area = 0, shining = 0;
+    for (const Emitter& e : emitters)
+        if (e.area > 0) area += e.area, shining += 1;
+    std::vector<float> exitances;
+    for (const Emitter& e : emitters) exitances.push_back(e.area > 0 ? 1 / e.area + shining / area : 0);
+    return exitances;
+}
+
+float unshadowed_form_factor(const Emitter& emitter, glm::vec3 origin, glm::vec3 normal) {
+    if (nothing_arrives(emitter, origin, normal)) return 0;
+    return static_cast<float>(is_exact(emitter, origin) ? exact_form_factor(emitter, origin, normal)
+                                                        : far_form_factor(emitter, origin, normal));
 }
 
 float direct_form_factor(const World& world, const Emitter& emitter, glm::vec3 origin, glm::vec3 normal,
                          VisibilityDetail detail, std::uint64_t& rays, float* deviation) {
     if (deviation) *deviation = 0;
     if (nothing_arrives(emitter, origin, normal)) return 0;
-    int seen = 0, facing = 0;
-    for (const EmitterPoint& p : emitter.probes) {
-        if (emitter_kernel(origin, normal, p) <= 0) continue;
-        ++facing;
-        seen += sees(world, origin, p.position);
+    if (!emitter.parts.empty()) {
+        float sum = 0, variance = 0;
+        for (const Emitter& part : emitter.parts) {
+            float of_part = 0;
+            sum += direct_form_factor(world, part, origin, normal, detail, rays, &of_part);
+            variance += of_part * of_part;
+        }
+        if (deviation) *deviation = std::sqrt(variance);
+        return sum;
     }
-    rays += facing;
-    const bool all_facing = facing == static_cast<int>(emitter.probes.size());
-    if (all_facing && seen == 0) return 0;
+    const PointsSeen probes = look_at(world, emitter.probes, origin, normal);
+    rays += static_cast<std::uint64_t>(probes.facing);
+    const bool all_facing = probes.facing == static_cast<int>(emitter.probes.size());
+    if (all_facing && probes.count == 0) return 0;
 
-    const bool wholly_seen = all_facing && seen == facing;
-    const float distance = glm::length(emitter.centre - origin);
-    const bool near = distance < far_diameters * 2 * emitter.radius;
-    const bool exact = emitter.triangles.size() <= (near ? most_exact_triangles : few_triangles);
+    const bool wholly_seen = all_facing && probes.count == probes.facing;
+    const bool exact = is_exact(emitter, origin);
     if (exact && wholly_seen) return static_cast<float>(exact_form_factor(emitter, origin, normal));
 
-    const bool subdivided = !wholly_seen && emitter.triangles.size() <= most_subdivided_triangles;
-    VisibleShare seen_share;
-    if (subdivided) seen_share = visible_share(world, emitter, origin, normal, detail, rays);
-    double f = exact ? exact_form_factor(emitter, origin, normal) : 0;
-    if (!exact || !subdivided) {
-        double visible = 0, all = 0;
-        for (const EmitterPoint& p : emitter.points) {
-            const float g = emitter_kernel(origin, normal, p);
-            if (g <= 0) continue;
-            all += g;
-            if (wholly_seen || (!subdivided && (++rays, sees(world, origin, p.position)))) visible += g;
-        }
-        if (!(all > 0)) return static_cast<float>(exact && seen > 0 ? f : 0);
-        if (!exact) f = all * emitter.area / (std::numbers::pi * static_cast<double>(emitter.points.size()));
-        if (!subdivided) {
-            const double share = visible / all;
-            seen_share = {share, point_penumbra_deviation * std::sqrt(4 * share * (1 - share))};
-        }
+    VisibleShare share{1, 0};
+    if (!wholly_seen && detail == VisibilityDetail::probes && probes.all > 0) {
+        const double visible = probes.visible / probes.all;
+        share = {visible, probe_penumbra_deviation * std::sqrt(4 * visible * (1 - visible))};
+    } else if (!wholly_seen && emitter.triangles.size() <= most_subdivided_triangles) {
+        share = visible_share(world, emitter, origin, normal, detail, rays);
+    } else if (!wholly_seen) {
+        const PointsSeen points = look_at(world, emitter.points, origin, normal);
+        rays += static_cast<std::uint64_t>(points.facing);
+        if (points.all > 0) {
+            const double visible = points.visible / points.all;
+            share = {visible, point_penumbra_deviation * std::sqrt(4 * visible * (1 - visible))};
+        } else
+            share.share = probes.count > 0 ? 1 : 0;
     }
+    const double f = exact ? exact_form_factor(emitter, origin, normal) : far_form_factor(emitter, origin, normal);
     // The points also stand for the formula itself, to 0.5 % at far_diameters, where they are not exact.
-    const double formula = exact ? 0 : 0.005 * seen_share.share;
-    if (deviation) *deviation = static_cast<float>(f * std::hypot(seen_share.deviation, formula));
-    return static_cast<float>(f * seen_share.share);
+    const double formula = exact ? 0 : 0.005 * share.share;
+    if (deviation) *deviation = static_cast<float>(f * std::hypot(share.deviation, formula));
+    return static_cast<float>(f * share.share);
 }
 
 float direct_form_factor_sketch(const World& world, const Emitter& emitter, glm::vec3 origin, glm::vec3 normal,

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/scene/scene.h"
@@ -28,10 +29,14 @@ struct EmitterPoint {
 
 // The geometry of one luminaire. Independent of its power and spectrum.
 struct Emitter {
+    // Windows in a row, lamps in one group: what lies apart is lit and shadowed apart, and has probes of its own.
+    // Empty: it is one.
+    std::vector<Emitter> parts;
     std::vector<EmitterTriangle> triangles;
     float area = 0;
     glm::vec3 centre{0};
     float radius = 0;                   // of a sphere around it
+    EmitterPoint middle{};              // the stratified point nearest to the centre
     std::vector<EmitterPoint> probes;   // far apart: all seen or all hidden settles V
     std::vector<EmitterPoint> points;   // stratified by area
     std::vector<float> cumulative_area; // one a triangle, ends at `area`
@@ -44,16 +49,24 @@ bool sees(const World& world, glm::vec3 origin, glm::vec3 target);
 
 std::vector<Emitter> make_emitters(const Scene& scene);
 
+// Exitance of each luminaire as geometry alone lets it be guessed: half of all flux is given out equally, half by area
+// (a window is large and sends much, a lamp is small and sends as much as the next). Rays and meshes that follow it are
+// not changed by an edit of a lamp.
+std::vector<float> guessed_exitances(std::span<const Emitter> emitters);
+
 // A point of the emitter, uniform by area, for u in the unit square.
 EmitterPoint emitter_point(const Emitter& emitter, glm::vec2 u);
 
 // How finely penumbrae are known: the light of one luminaire of many, or on something small, matters less.
-enum class VisibilityDetail { whole_cells, one_cut, two_cuts };
+enum class VisibilityDetail { probes, whole_cells, one_cut, two_cuts };
 
 // D for one receiver. `origin` is already off its surface. deviation: the standard deviation of D that the stratified
 // points leave (0 where the formula is exact and the probes agree).
 float direct_form_factor(const World& world, const Emitter& emitter, glm::vec3 origin, glm::vec3 normal,
                          VisibilityDetail detail, std::uint64_t& rays, float* deviation = nullptr);
+
+// F alone, as if nothing stood between; one kernel where the luminaire is far.
+float unshadowed_form_factor(const Emitter& emitter, glm::vec3 origin, glm::vec3 normal);
 
 // A first guess with one shadow ray, to a probe chosen by `choice`: unbiased far away, rough near the lamp. For a
 // picture at once.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/transport/gather_rows.h"
+#include "core/transport/many_lights.h"
 #include "core/transport/sampling.h"
 #include "core/transport/time_slice.h"
 
@@ -11,12 +12,8 @@ namespace lueur {
 
 namespace {
 
-// What an emitter of some flux would give without any shadow, roughly.
-float unshadowed(const Emitter& emitter, glm::vec3 origin, glm::vec3 normal) {
-    const glm::vec3 d = emitter.centre - origin;
-    const float r2 = glm::dot(d, d) + emitter.radius * emitter.radius;
-    return std::max(0.0f, glm::dot(d, normal) + emitter.radius) / (r2 * std::sqrt(r2));
-}
+constexpr float small_size = 0.25f;     // of the coarse element size: what is smaller counts by its area
+constexpr float long_edge_share = 0.4f; // of the coarse element size: longer edges are looked at in any case
 
 } // namespace
 
@@ -27,7 +24,7 @@ DirectTransport::DirectTransport(const World& world, Mesh& mesh, std::vector<Emi
     , emitters_(std::move(emitters))
     , params_(params)
     , edges_(mesh) {
-    for (const Emitter& e : emitters_) weight_.push_back(e.area > 0 ? 1 / e.area : 0);
+    weight_ = guessed_exitances(emitters_);
     origins_ = ray_origins(mesh_, world_.epsilon());
     factors_.assign(mesh_.vertices.size() * emitters_.size(), 0);
     deviations_ = factors_;
@@ -37,25 +34,13 @@ DirectTransport::DirectTransport(const World& world, Mesh& mesh, std::vector<Emi
 
 // size: m, across what this light stands for.
 void DirectTransport::light(glm::vec3 origin, glm::vec3 normal, float size, float* factors, float* deviations) const {
-    constexpr float fine = 0.1f, coarse = 0.03f; // of all light, on an element of full size
-    std::uint64_t rays = 0;
-    float all = 0;
-    for (const Emitter& e : emitters_) all += unshadowed(e, origin, normal);
-    std::fill_n(factors, emitters_.size(), 0.0f);
-    std::fill_n(deviations, emitters_.size(), 0.0f);
-    if (!(all > 0)) return;
-    const float part = std::min(1.0f, params_.element_size > 0 ? size / params_.element_size : 1) / all;
-    for (std::size_t l = 0; l < emitters_.size(); ++l) {
-        const float counts = part * unshadowed(emitters_[l], origin, normal);
-        const VisibilityDetail detail = counts > fine     ? VisibilityDetail::two_cuts
-                                        : counts > coarse ? VisibilityDetail::one_cut
-                                                          : VisibilityDetail::whole_cells;
-        factors[l] = direct_form_factor(world_, emitters_[l], origin, normal, detail, rays, &deviations[l]);
-    }
-    rays_.fetch_add(rays, std::memory_order_relaxed);
+    const float part = params_.element_size > 0 ? std::min(1.0f, size / (small_size * params_.element_size)) : 1;
+    const float share = part * part;
+    rays_.fetch_add(direct_form_factors(world_, emitters_, weight_, origin, normal, share, factors, deviations),
+                    std::memory_order_relaxed);
 }
 
-float DirectTransport::equal_flux_light(const float* factors) const {
+float DirectTransport::guessed_light(const float* factors) const {
     float sum = 0;
     for (std::size_t l = 0; l < emitters_.size(); ++l) sum += weight_[l] * factors[l];
     return sum;
@@ -88,12 +73,12 @@ bool DirectTransport::light_vertices(const std::atomic<bool>& cancel) {
             float* factors = factors_.data() + row;
             light(origins_[v], mesh_.vertices[v].normal, std::sqrt(area_[v]), factors, deviations_.data() + row);
             buried_[v] = 0;
-            if (equal_flux_light(factors) == 0) find_buried(world_, mesh_, origins_, v, v + 1, buried_);
+            if (guessed_light(factors) == 0) find_buried(world_, mesh_, origins_, v, v + 1, buried_);
         }
     });
     if (done && floor_ == 0 && count > 0) {
         double sum = 0;
-        for (std::uint32_t v = 0; v < count; ++v) sum += equal_flux_light(at_vertex(v));
+        for (std::uint32_t v = 0; v < count; ++v) sum += guessed_light(at_vertex(v));
         floor_ = static_cast<float>(0.25 * sum / count); // darker than this, a relative error is not seen
         spread_deviations();
     }
@@ -101,7 +86,16 @@ bool DirectTransport::light_vertices(const std::atomic<bool>& cancel) {
 }
 
 void DirectTransport::begin_level() {
-    edges_.collect(params_.smallest_edge, [](std::uint32_t, std::uint32_t) { return true; });
+    // A short edge whose ends agree hides no more than a shadow thinner than itself.
+    const float long_edge = long_edge_share * params_.element_size;
+    std::vector<float> light;
+    light.reserve(mesh_.vertices.size());
+    for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) light.push_back(guessed_light(at_vertex(v)));
+    edges_.collect(params_.smallest_edge, [&](std::uint32_t a, std::uint32_t b) {
+        if (buried_[a] && buried_[b]) return false;
+        if (std::abs(light[a] - light[b]) > params_.tolerance * std::max({light[a], light[b], floor_})) return true;
+        return glm::distance(mesh_.vertices[a].position, mesh_.vertices[b].position) > long_edge;
+    });
     edge_cursor_ = 0;
     edge_factors_.assign(edges_.edges().size() * emitters_.size(), 0);
     edge_deviations_ = edge_factors_;
@@ -111,8 +105,8 @@ void DirectTransport::split_bent() {
     std::vector<float> bent(edges_.edges().size(), 0); // the misfit where it is too large
     for (std::size_t e = 0; e < bent.size(); ++e) {
         const EdgeRefinement::Edge& edge = edges_.edges()[e];
-        const float here = equal_flux_light(edge_factors_.data() + e * emitters_.size());
-        const float guess = 0.5f * (equal_flux_light(at_vertex(edge.a)) + equal_flux_light(at_vertex(edge.b)));
+        const float here = guessed_light(edge_factors_.data() + e * emitters_.size());
+        const float guess = 0.5f * (guessed_light(at_vertex(edge.a)) + guessed_light(at_vertex(edge.b)));
         const float scale = std::max({here, guess, floor_});
         const float misfit = scale > 0 ? std::abs(here - guess) / scale : 0;
         const bool inside = buried_[edge.a] && buried_[edge.b];
@@ -140,7 +134,7 @@ void DirectTransport::split_bent() {
                     std::copy_n(edge_deviations_.data() + edge, emitters_.size(), deviations);
                 } else
                     light(origins_[v], mesh_.vertices[v].normal, std::sqrt(area_[v]), factors, deviations);
-                if (equal_flux_light(factors) == 0) find_buried(world_, mesh_, origins_, v, v + 1, buried_);
+                if (guessed_light(factors) == 0) find_buried(world_, mesh_, origins_, v, v + 1, buried_);
             }
         });
     vertex_cursor_ = after;

@@ -1,7 +1,7 @@
 // Direct light at the vertices of a mesh that refines itself where direct light bends: shadow edges, contacts, places
 // near a lamp.
 //
-// Refinement looks at geometry only (all luminaires as if they gave the same flux), so that no edit of a lamp or a
+// Refinement looks at geometry only (luminaires as guessed_exitances has them), so that no edit of a lamp or a
 // paint changes the mesh, and a solution after edits is the solution of the same scene opened afresh.
 #pragma once
 
@@ -40,8 +40,8 @@ public:
     std::size_t lit_vertices() const { return buried_.size(); } // that it knows of
     std::size_t emitter_count() const { return emitters_.size(); }
     const std::vector<Emitter>& emitters() const { return emitters_; }
-    // Of factors D: irradiance, were all luminaires of the same flux.
-    float equal_flux_light(const float* factors) const;
+    // Of factors D: irradiance, were the luminaires as guessed.
+    float guessed_light(const float* factors) const;
     // D of each emitter at a vertex: irradiance for unit exitance.
     const float* at_vertex(std::uint32_t v) const { return factors_.data() + std::size_t(v) * emitters_.size(); }
     // Standard deviation of D at a vertex, one an emitter: of the stratified points in a penumbra; next to one, of the
@@ -68,7 +68,7 @@ private:
     DirectParams params_;
     EdgeRefinement edges_; // of this level, and their D:
     std::vector<float> edge_factors_, edge_deviations_;
-    std::vector<float> weight_;               // exitance of each emitter at equal flux
+    std::vector<float> weight_;               // guessed_exitances
     std::vector<float> factors_, deviations_; // vertices * emitters
     std::vector<std::uint8_t> buried_;
     std::vector<glm::vec3> origins_;

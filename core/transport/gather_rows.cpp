@@ -1,6 +1,8 @@
 #include "core/transport/gather_rows.h"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "core/transport/sampling.h"
 
@@ -48,36 +50,46 @@ void find_buried(const World& world, const Mesh& mesh, const std::vector<glm::ve
     }
 }
 
-GatherPass make_gather_pass(const Mesh& mesh, const Receivers& receivers) {
+GatherPass make_gather_pass(const Mesh& mesh, const Receivers& receivers, std::vector<RayHit> hits) {
     const std::size_t rays = std::size_t(receivers.count()) * rays_per_pass;
     return {std::vector<std::uint32_t>(rays, receivers.count()),
-            std::vector<std::uint32_t>(rays, static_cast<std::uint32_t>(mesh.vertices.size()))};
+            std::vector<std::uint32_t>(rays, static_cast<std::uint32_t>(mesh.vertices.size())), std::move(hits)};
 }
 
-void trace_gather_rays(const World& world, const Mesh& mesh, const std::vector<glm::vec3>& origins,
-                       const Receivers& receivers, const std::vector<std::uint8_t>& buried, std::uint32_t seed,
-                       std::uint32_t pass, std::uint32_t first, std::uint32_t last, GatherPass& out) {
+std::uint64_t trace_gather_rays(const World& world, const Mesh& mesh, const std::vector<glm::vec3>& origins,
+                                const Receivers& receivers, const std::vector<std::uint8_t>& buried, std::uint32_t seed,
+                                std::uint32_t pass, std::uint32_t first, std::uint32_t last, GatherPass& out) {
     const std::uint32_t key = hash(hash(seed, pass), 0x5bd1e995u); // of the choices of vertices
     const std::uint32_t first_point = pass / independent_sets * rays_per_pass;
+    const std::size_t known = out.hits.size() / rays_per_pass;
+    std::uint64_t traced = 0;
+    std::array<RayHit, rays_per_pass> fresh;
     for (std::uint32_t i = first; i < last; ++i) {
         if (receivers.buried[i]) continue; // all its rays stay outside
         const std::uint32_t vertex = receivers.vertex[i];
-        const Frame frame(mesh.vertices[vertex].normal);
-        const glm::vec2 offset = random_offset(hash(seed, pass % independent_sets), i);
-        for (std::uint32_t k = 0; k < rays_per_pass; ++k) {
-            const Hit hit =
-                world.closest({origins[vertex], frame.world(cosine_direction(r2_point(first_point + k, offset)))});
-            if (hit.element == no_index) continue;
-            const std::size_t ray = std::size_t(i) * rays_per_pass + k;
-            const std::uint32_t bits = hash(key, static_cast<std::uint32_t>(ray));
-            const Located indirect = locate_on_level(mesh, mesh.indirect_vertex_count, hit.element, hit.b1, hit.b2);
+        const std::size_t row = std::size_t(i) * rays_per_pass;
+        RayHit* hits = i < known ? out.hits.data() + row : fresh.data();
+        if (i >= known || hits[0].element == RayHit::untraced) {
+            const Frame frame(mesh.vertices[vertex].normal);
+            const glm::vec2 offset = random_offset(hash(seed, pass % independent_sets), i);
+            for (std::uint32_t k = 0; k < rays_per_pass; ++k) {
+                const Hit hit =
+                    world.closest({origins[vertex], frame.world(cosine_direction(r2_point(first_point + k, offset)))});
+                hits[k] = {hit.element, hit.b1, hit.b2};
+            }
+            traced += rays_per_pass;
+        }
+        for (std::size_t k = 0; k < rays_per_pass; ++k) {
+            if (hits[k].element == no_index) continue;
+            const std::uint32_t bits = hash(key, static_cast<std::uint32_t>(row + k));
+            const auto [indirect, fine] = locate_twice(mesh, hits[k].element, hits[k].b1, hits[k].b2);
             const std::uint32_t end = pick_vertex(indirect.vertices, indirect.weights, buried, unit_float(bits));
-            if (end != no_index) out.ends[ray] = receivers.of_vertex[end];
-            const Located fine = locate(mesh, hit.element, hit.b1, hit.b2);
+            if (end != no_index) out.ends[row + k] = receivers.of_vertex[end];
             const std::uint32_t fine_end = pick_vertex(fine.vertices, fine.weights, buried, unit_float(hash(bits)));
-            if (fine_end != no_index) out.fine_ends[ray] = fine_end;
+            if (fine_end != no_index) out.fine_ends[row + k] = fine_end;
         }
     }
+    return traced;
 }
 
 double row_sum(const std::vector<GatherPass>& passes, std::uint32_t receiver, std::uint32_t receivers) {

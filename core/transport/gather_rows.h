@@ -34,6 +34,13 @@ struct Surroundings {
 void find_buried(const World& world, const Mesh& mesh, const std::vector<glm::vec3>& origins, std::uint32_t first,
                  std::uint32_t last, std::vector<std::uint8_t>& buried, Surroundings* around = nullptr);
 
+// Where a ray met the coarse mesh; no_index: nothing that can shine.
+struct RayHit {
+    static constexpr std::uint32_t untraced = no_index - 1;
+    std::uint32_t element = untraced;
+    float b1 = 0, b2 = 0;
+};
+
 struct GatherPass {
     // receivers * rays_per_pass of each. The receiver each ray ended at, drawn among those of the vertices of the
     // element it met on the level of indirect light (the number of receivers where it left the scene or met a black
@@ -41,15 +48,20 @@ struct GatherPass {
     // light is read from receivers, direct light from fine vertices.
     std::vector<std::uint32_t> ends;
     std::vector<std::uint32_t> fine_ends;
+    // Rays of the first receivers as traced, kept while the mesh still grows: on the next one they end at other
+    // vertices, but none is traced again.
+    std::vector<RayHit> hits;
 };
 
-GatherPass make_gather_pass(const Mesh& mesh, const Receivers& receivers);
+// hits: of rays of the same pass on the mesh before, of the same receivers, then the first ones.
+GatherPass make_gather_pass(const Mesh& mesh, const Receivers& receivers, std::vector<RayHit> hits = {});
 
-// Traces the rays of receivers [first, last) of pass number `pass`. origins, buried: of all vertices, coarse ones
-// first. Deterministic for a seed, whatever the chunks and threads.
-void trace_gather_rays(const World& world, const Mesh& mesh, const std::vector<glm::vec3>& origins,
-                       const Receivers& receivers, const std::vector<std::uint8_t>& buried, std::uint32_t seed,
-                       std::uint32_t pass, std::uint32_t first, std::uint32_t last, GatherPass& out);
+// Traces the rays of receivers [first, last) of pass number `pass` (but for those whose hits are there) and finds where
+// they end. origins, buried: of all vertices, coarse ones first. Deterministic for a seed, whatever the chunks and
+// threads, and whichever hits were kept. Returns how many rays were traced.
+std::uint64_t trace_gather_rays(const World& world, const Mesh& mesh, const std::vector<glm::vec3>& origins,
+                                const Receivers& receivers, const std::vector<std::uint8_t>& buried, std::uint32_t seed,
+                                std::uint32_t pass, std::uint32_t first, std::uint32_t last, GatherPass& out);
 
 // Share of a receiver's rays that hit something that can shine: the row sum.
 double row_sum(const std::vector<GatherPass>& passes, std::uint32_t receiver, std::uint32_t receivers);

@@ -33,7 +33,7 @@ IndirectRefinement::IndirectRefinement(const World& world, Mesh& mesh, const Dir
     const std::vector<float> area = vertex_areas(mesh);
     double sum = 0, all = 0;
     for (std::uint32_t v = 0; v < mesh.coarse_vertex_count; ++v) {
-        direct_.push_back(direct.equal_flux_light(direct.at_vertex(v)));
+        direct_.push_back(direct.guessed_light(direct.at_vertex(v)));
         if (!buried_[v]) sum += double(area[v]) * direct_[v], all += area[v];
     }
     // Light of further reflections as if it were the same everywhere: rho + rho^2 + ... of the mean.

@@ -4,7 +4,7 @@
 // Indirect light changes over distances of the order of those to the surfaces around (Ward, Rubinstein & Clear 1988):
 // only edges longer than a part of them are looked at. There the light of one ray set is compared at the middle and
 // at both ends; the same directions at all three leave what changes, not the noise. What the rays meet is grey and
-// lit by all luminaires as if they gave the same flux, so that no edit of a lamp or a paint changes the mesh.
+// lit by luminaires as guessed_exitances has them, so that no edit of a lamp or a paint changes the mesh.
 #pragma once
 
 #include <atomic>
@@ -38,11 +38,12 @@ public:
     // At the end, of the mesh's vertices then:
     const std::vector<std::uint8_t>& buried() const { return buried_; }
     const std::vector<glm::vec3>& origins() const { return origins_; }
+    const std::vector<float>& distance() const { return distance_; } // to what is around, harmonic mean, m
     std::uint64_t rays() const { return rays_.load(); }
 
 private:
     struct Seen {
-        float light = -1, distance = 0; // equal-flux irradiance, < 0: not gathered yet; m, harmonic mean
+        float light = -1, distance = 0; // guessed irradiance, < 0: not gathered yet; m, harmonic mean
         bool buried = false;
     };
     Seen gather(glm::vec3 origin, glm::vec3 normal) const;
@@ -55,7 +56,7 @@ private:
     const IndirectParams params_;
     EdgeRefinement edges_;
     std::vector<float> radiosity_; // grey, at coarse vertices
-    std::vector<float> direct_;    // equal-flux, at all vertices
+    std::vector<float> direct_;    // guessed, at all vertices
     float floor_ = 0;              // darker than this a relative error is not seen
     std::vector<std::uint8_t> buried_;
     std::vector<float> distance_;

@@ -1,6 +1,7 @@
 #include "core/transport/mesh.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <unordered_map>
@@ -235,23 +236,26 @@ Mesh make_mesh(const Scene& scene, const MeshParams& params) {
 
 namespace {
 
-// One step down: the weights in the child that holds the point, and whether it is the second one.
-bool step_down(int k, glm::vec3& w) {
-    const float a = w[k], b = w[(k + 1) % 3], c = w[(k + 2) % 3];
-    if (a >= b) {
-        w = {a - b, 2 * b, c}; // children are {a, middle, c} and {middle, b, c}
-        return false;
-    }
-    w = {2 * a, b - a, c};
-    return true;
+// One step down: the weights in the child that holds the point, and whether it is the second one. Children are {a,
+// middle, c}, with the weights {a - b, 2 b, c}, and {middle, b, c}, with {2 a, b - a, c}. Which of them is as good as
+// random: chosen by masks, for a branch would be mispredicted at every other step.
+std::uint32_t step_down(int k, glm::vec3& w) {
+    constexpr int following[3] = {1, 2, 0};
+    const int l = following[k];
+    const float a = w[k], b = w[l], c = w[following[l]];
+    const std::uint32_t second = a < b, mask = 0u - second;
+    const auto apart = std::bit_cast<std::uint32_t>(std::abs(a - b)),
+               twice = std::bit_cast<std::uint32_t>(2 * std::min(a, b));
+    w = {std::bit_cast<float>((twice & mask) | (apart & ~mask)), std::bit_cast<float>((apart & mask) | (twice & ~mask)),
+         c};
+    return second;
 }
 
-Located descend(const Mesh& mesh, std::uint32_t coarse_element, float b1, float b2, std::uint32_t nodes) {
-    std::uint32_t n = coarse_element;
-    glm::vec3 w(1 - b1 - b2, b1, b2);
+// From node n down to the leaf among the first `nodes`.
+std::uint32_t descend(const Mesh& mesh, std::uint32_t n, glm::vec3& w, std::uint32_t nodes) {
     while (mesh.nodes[n].children < nodes) // no_index is larger than any
         n = mesh.nodes[n].children + step_down(mesh.nodes[n].split_edge, w);
-    return {mesh.nodes[n].vertices, w};
+    return n;
 }
 
 } // namespace
@@ -265,14 +269,26 @@ std::uint32_t coarse_element_at(const TriangleTree& tree, std::uint32_t triangle
 }
 
 Located locate(const Mesh& mesh, std::uint32_t coarse_element, float b1, float b2) {
-    return descend(mesh, coarse_element, b1, b2, no_index);
+    glm::vec3 w(1 - b1 - b2, b1, b2);
+    const std::uint32_t leaf = descend(mesh, coarse_element, w, no_index);
+    return {mesh.nodes[leaf].vertices, w};
+}
+
+LocatedTwice locate_twice(const Mesh& mesh, std::uint32_t coarse_element, float b1, float b2) {
+    glm::vec3 w(1 - b1 - b2, b1, b2);
+    const std::uint32_t indirect = descend(mesh, coarse_element, w, mesh.indirect_node_count);
+    const glm::vec3 indirect_weights = w;
+    const std::uint32_t leaf = descend(mesh, indirect, w, no_index);
+    return {{mesh.nodes[indirect].vertices, indirect_weights}, {mesh.nodes[leaf].vertices, w}};
 }
 
 Located locate_on_level(const Mesh& mesh, std::uint32_t vertices, std::uint32_t coarse_element, float b1, float b2) {
     const std::uint32_t nodes = vertices == mesh.vertices.size()         ? no_index
                                 : vertices == mesh.indirect_vertex_count ? mesh.indirect_node_count
                                                                          : mesh.coarse_element_count;
-    return descend(mesh, coarse_element, b1, b2, nodes);
+    glm::vec3 w(1 - b1 - b2, b1, b2);
+    const std::uint32_t leaf = descend(mesh, coarse_element, w, nodes);
+    return {mesh.nodes[leaf].vertices, w};
 }
 
 std::vector<glm::uvec3> elements_of_level(const Mesh& mesh, std::uint32_t vertices) {

@@ -101,6 +101,12 @@ Located locate(const Mesh& mesh, std::uint32_t coarse_element, float b1, float b
 // The same on the level that has so many vertices: the coarse one, that of indirect light, or that of the leaves.
 Located locate_on_level(const Mesh& mesh, std::uint32_t vertices, std::uint32_t coarse_element, float b1, float b2);
 
+// On the level of indirect light and on that of the leaves.
+struct LocatedTwice {
+    Located indirect, fine;
+};
+LocatedTwice locate_twice(const Mesh& mesh, std::uint32_t coarse_element, float b1, float b2);
+
 // The elements of the level that has so many vertices: the coarse one or that of indirect light.
 std::vector<glm::uvec3> elements_of_level(const Mesh& mesh, std::uint32_t vertices);
 

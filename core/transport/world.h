@@ -39,7 +39,13 @@ public:
 
     Hit closest(const Ray& ray) const;
     bool occluded(const Ray& ray) const; // anything between t_min and t_max
-    float epsilon() const;               // m; how far rays start from their surface
+
+    // Shadow rays from one place go through the scene together: about twice as fast as one by one. Bit k: something is
+    // between `origin` and target k (but for the last 1e-4 of the way). At most `packet` targets.
+    static constexpr std::size_t packet = 8;
+    std::uint32_t hidden(glm::vec3 origin, std::span<const glm::vec3> targets) const;
+
+    float epsilon() const; // m; how far rays start from their surface
 
 private:
     struct Embree;
