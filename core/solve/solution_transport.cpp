@@ -113,7 +113,7 @@ bool ask_probes(State& s, const std::atomic<bool>& cancel) {
         for (std::uint32_t e = 0; e < luminaire.size(); ++e)
             if (const auto l = s.luminaire_of(s.mesh.coarse_surface[e], s.mesh.coarse_back[e] != 0))
                 luminaire[e] = static_cast<std::uint32_t>(*l);
-        place_probes(*s.world, s.mesh, *s.direct, buried, std::move(luminaire), probe_count, seed, s.probes);
+        place_probes(*s.world, s.mesh, *s.direct, buried, std::move(luminaire), probe_count(s.mesh), seed, s.probes);
     }
     if (!trace_probes(*s.world, s.mesh, *s.direct, buried, seed, cancel, s.probes)) return false;
     s.status.rays +=
