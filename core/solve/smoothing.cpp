@@ -15,7 +15,7 @@ namespace {
 
 using Range = tbb::blocked_range<std::uint32_t>;
 
-constexpr std::size_t most_neighbours = 32;
+constexpr std::size_t most_neighbours = 20;
 constexpr float same_plane = 0.97f;     // cosine between normals
 constexpr double least_gain = 0.8;      // variance left: for less it is not worth the bend
 constexpr float reach_of_a_pass = 0.5f; // of the distance around, for 32 rays
@@ -23,17 +23,17 @@ constexpr float reach_of_a_pass = 0.5f; // of the distance around, for 32 rays
 // Neighbours of each vertex along edges, as rows.
 struct Ring {
     std::vector<std::uint32_t> first, neighbour;
+    // Each element tells each corner of the next one: at the rim, where an edge has one element, one way suffices.
     Ring(std::span<const glm::uvec3> elements, std::size_t vertices)
         : first(vertices + 1, 0) {
         for (const glm::uvec3& e : elements)
-            for (int k = 0; k < 3; ++k) first[e[k] + 1] += 2;
+            for (int k = 0; k < 3; ++k) first[e[k] + 1] += 1;
         for (std::size_t v = 0; v < vertices; ++v) first[v + 1] += first[v];
         neighbour.resize(first.back());
         std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
         for (const glm::uvec3& e : elements)
             for (int k = 0; k < 3; ++k) {
                 neighbour[next[e[k]]++] = e[(k + 1) % 3];
-                neighbour[next[e[k]]++] = e[(k + 2) % 3];
             }
     }
     std::span<const std::uint32_t> of(std::uint32_t v) const {
@@ -82,12 +82,12 @@ Row row_of(const Mesh& mesh, const Ring& ring, std::span<const std::uint8_t> bur
     row.count = 1;
     for (std::size_t k = 0; k < row.count && row.count < most_neighbours; ++k) // outwards, ring by ring
         for (const std::uint32_t n : ring.of(row.vertex[k])) {
-            if (row.count == most_neighbours || buried[n] || row.has(n)) continue;
+            if (row.count == most_neighbours || buried[n]) continue;
             const MeshVertex& other = mesh.vertices[n];
             const glm::vec3 d = other.position - at.position;
             const float radius = std::min(farthest, reach * std::min(distance[v], distance[n]));
             const float far = glm::dot(d, d) / (radius * radius);
-            if (!(far < 1) || glm::dot(at.normal, other.normal) < same_plane) continue;
+            if (!(far < 1) || glm::dot(at.normal, other.normal) < same_plane || row.has(n)) continue;
             row.vertex[row.count] = n;
             row.weight[row.count] = (1 - far) * (1 - far);
             place[row.count] = glm::dvec2(glm::dot(d, frame.x), glm::dot(d, frame.y)) / double(radius);

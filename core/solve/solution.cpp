@@ -98,7 +98,7 @@ void warn_of_error(SolveStatus& status, const SolveSettings& solve) {
 void start_solver(State& s, bool same_sources) {
     if (s.solver() != SolverKind::hierarchical) s.status.links = 0;
     if (s.solver() != SolverKind::gathering) s.indirect_deviation.clear(), s.rays_unjudged = false; // another solver's
-    if (!s.refined) s.probes = {}; // they read the mesh as it was then
+    if (!s.fully_refined()) s.probes = {}; // they read the mesh as it was then
     switch (s.solver()) {
     case SolverKind::automatic:
     case SolverKind::gathering:

@@ -48,10 +48,15 @@ double unshot_flux_share(const State& s) {
     return s.status.emitted_lumens > 0 ? flux / s.status.emitted_lumens : 0;
 }
 
+// Fine vertices that rays may end at: those there were when the rays were traced. The mesh may have grown since.
+std::uint32_t fine_vertices_of_rays(const State& s) {
+    return s.passes.empty() ? static_cast<std::uint32_t>(s.mesh.vertices.size()) : s.passes.front().fine_vertices;
+}
+
 // Direct light reflected at the fine vertices: rho D E, one row more than vertices, the last zero. Luminaires without
 // any channels are left out.
 ChannelField reflected_direct(const State& s, const Exitances& exitance) {
-    const std::uint32_t count = static_cast<std::uint32_t>(s.mesh.vertices.size());
+    const std::uint32_t count = fine_vertices_of_rays(s);
     const int channels = s.channels();
     const std::size_t emitters = s.direct->emitter_count();
     ChannelField b(count + 1, channels);
@@ -74,12 +79,12 @@ SmoothedReceivers smoothed_receivers(const State& s) {
     return {s.receivers.of_vertex, s.receivers.vertex, s.smoothing};
 }
 
-// Direct irradiance at all vertices of luminaires as guessed: what the ray budget looks at.
+// Direct irradiance at the fine vertices of luminaires as guessed: what the ray budget looks at.
 std::vector<float> guessed_direct(const State& s) {
     std::vector<float> direct;
-    direct.reserve(s.mesh.vertices.size());
-    for (std::uint32_t v = 0; v < s.mesh.vertices.size(); ++v)
-        direct.push_back(s.direct->guessed_light(s.direct->at_vertex(v)));
+    const std::uint32_t count = fine_vertices_of_rays(s);
+    direct.reserve(count);
+    for (std::uint32_t v = 0; v < count; ++v) direct.push_back(s.direct->guessed_light(s.direct->at_vertex(v)));
     return direct;
 }
 
@@ -100,7 +105,7 @@ double gathering_missing_share(const State& s, const std::vector<float>& areas, 
 void take_stock_of_gathering(State& s) {
     if (!std::exchange(s.rays_unjudged, false)) return;
     const std::uint32_t receivers = s.receivers.count();
-    ScalarRadiosity radiosity{std::vector<float>(receivers), std::vector<float>(s.mesh.vertices.size())};
+    ScalarRadiosity radiosity{std::vector<float>(receivers), std::vector<float>(fine_vertices_of_rays(s))};
     // Direct irradiance and its reflection: luminous exitance of each luminaire, and its luminous part on each paint.
     std::vector<double> exitance;
     std::vector<std::vector<double>> reflected(s.material_rho.size());
@@ -119,7 +124,7 @@ void take_stock_of_gathering(State& s) {
         for (std::size_t l = 0; l < exitance.size(); ++l)
             direct[i] += static_cast<float>(s.direct->at_vertex(s.receivers.vertex[i])[l] * exitance[l]);
     }
-    for (std::uint32_t v = 0; v < s.mesh.vertices.size(); ++v) {
+    for (std::uint32_t v = 0; v < radiosity.direct.size(); ++v) {
         const float* d = s.direct->at_vertex(v);
         const auto& on_paint = reflected[s.material_of(s.mesh.vertices[v].surface)];
         for (std::size_t l = 0; l < exitance.size(); ++l) radiosity.direct[v] += static_cast<float>(d[l] * on_paint[l]);
@@ -267,7 +272,7 @@ void trace_gathering_rows(State& s, const std::atomic<bool>& cancel) {
         std::vector<RayHit> hits;
         const std::size_t rays = std::size_t(s.receivers.count()) * rays_per_pass;
         if (s.passes.size() < s.kept_hits.size()) hits = std::move(s.kept_hits[s.passes.size()]);
-        if (!s.refined) hits.resize(rays);
+        if (!s.fully_refined()) hits.resize(rays);
         s.passes.push_back(make_gather_pass(s.mesh, s.receivers, std::move(hits)));
         s.cursor = 0;
         s.pass_open = true;
@@ -284,7 +289,7 @@ void trace_gathering_rows(State& s, const std::atomic<bool>& cancel) {
     s.status.rays += traced.load();
     if (!done) return;
     s.pass_open = false;
-    if (s.refined) s.passes.back().hits = {};
+    if (s.fully_refined()) s.passes.back().hits = {};
     s.status.rays_per_receiver = static_cast<std::uint32_t>(s.passes.size()) * rays_per_pass;
     s.status.row_entries = std::uint64_t(s.receivers.count()) * s.status.rays_per_receiver;
     if (s.passes.size() < s.passes_wanted) return;
@@ -304,7 +309,7 @@ void step_gathering(State& s, const std::atomic<bool>& cancel) {
         return;
     }
     if (s.status.sweeps == 0 && has_no_finite_solution(s)) return fail(s, no_finite_solution);
-    const double target = s.refined ? residual_target : first_residual_target;
+    const double target = s.fully_refined() ? residual_target : first_residual_target;
     if (s.system.relative_residual() > target) {
         if (!s.system.sweep(s.passes, cancel)) return;
         ++s.status.sweeps;
@@ -316,13 +321,14 @@ void step_gathering(State& s, const std::atomic<bool>& cancel) {
     s.status.residual = s.system.relative_residual();
     if (s.system.relative_residual() > target) return;
     s.rays_unjudged = true;
-    if (s.refined) plan_passes(s);
-    if (s.refined && s.passes.size() >= s.passes_wanted && s.probes.complete()) return settle(s);
+    const bool refined = s.fully_refined();
+    if (refined) plan_passes(s);
+    if (refined && s.passes.size() >= s.passes_wanted && s.probes.complete()) return settle(s);
     take_stock_of_gathering(s); // a settled solution is judged when it is shown
-    if (s.refined) {
+    if (refined) {
         s.only_probes_left = s.passes.size() >= s.passes_wanted;
         if (!s.only_probes_left) s.phase = SolvePhase::transport;
-    } else if (s.passes.size() < first_passes) {
+    } else if (!s.refined && s.passes.size() < first_passes) {
         // First what tells most: rays, as long as they are few, then shadows' edges and contacts.
         s.passes_wanted = std::min(first_passes, 2 * s.passes_wanted);
         s.phase = SolvePhase::transport;

@@ -219,7 +219,7 @@ void step_final_gather(State& s, const std::atomic<bool>& cancel) {
 
 void start_hierarchical(State& s, bool same_sources) {
     if (absorbs_nothing(s)) return fail(s, no_finite_solution);
-    if (s.direct_light_apart() && !s.refined) {
+    if (s.direct_light_apart() && !s.fully_refined()) {
         s.phase = SolvePhase::refine;
         return;
     }

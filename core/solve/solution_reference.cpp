@@ -30,7 +30,7 @@ double relative_error(const State& s) {
 } // namespace
 
 void start_reference(State& s, bool same_sources) {
-    if (!s.refined) {
+    if (!s.fully_refined()) {
         s.phase = SolvePhase::refine;
         return;
     }

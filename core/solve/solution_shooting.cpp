@@ -59,7 +59,7 @@ Shooting::Scenery scenery_of(const State& s) {
 
 void start_shooting(State& s) {
     if (absorbs_nothing(s)) return fail(s, no_finite_solution);
-    if (!s.refined) {
+    if (!s.fully_refined()) {
         s.phase = SolvePhase::refine;
         return;
     }

@@ -76,7 +76,7 @@ struct Solution::State {
     std::uint32_t passes_wanted = 1;            // from the geometry alone: see passes_for
     bool only_probes_left = false;              // gathering is solved, and asks how right it is
     bool rays_planned = false;                  // passes_wanted will not grow any more
-    bool refined = false;
+    bool refined = false;           // the level of indirect light is in use; direct light may still cut its own finer
     double element_size = 0;        // m, longest coarse edge in use
     std::vector<float> coarse_area; // m^2 of each coarse vertex
     ErrorProbes probes;             // where the solution is asked whether it is right
@@ -143,6 +143,7 @@ struct Solution::State {
     bool edit_open = true;                               // last_edit_seconds is still to be set
 
     int channels() const { return wavelengths->size() + (trichromatic ? trichromatic->size() : 0); }
+    bool fully_refined() const { return refined && direct->refined(); }
     // Coarse vertices by their own rays, fine ones where they are dark and inside a solid.
     std::vector<std::uint8_t> all_buried() const;
     std::uint32_t material_of(std::uint32_t surface) const;

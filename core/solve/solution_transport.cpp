@@ -7,15 +7,16 @@ namespace lueur {
 
 namespace {
 
-constexpr std::uint32_t fine_vertices = 20000; // that direct light may add: the window has to draw them
-constexpr double near_share = 0.01;            // of the coarse element size: what is nearer, elements do not resolve
-constexpr double receiver_cell = 0.3;          // of the coarse element size
+constexpr std::uint32_t fine_vertices = 20000;   // that direct light may add: the window has to draw them
+constexpr double near_share = 0.01;              // of the coarse element size: what is nearer, elements do not resolve
+constexpr std::uint32_t first_direct_levels = 2; // before the first refined picture
+constexpr double receiver_cell = 0.3;            // of the coarse element size
 
 using State = Solution::State;
 
 // Cuts the mesh where indirect light needs more receivers than the coarse vertices; true at the end.
 bool refine_indirect(State& s, const std::atomic<bool>& cancel) {
-    if (s.indirect_level) return true;
+    if (s.indirect_level || s.refined) return true;
     if (!s.indirect_refinement)
         s.indirect_refinement = std::make_unique<IndirectRefinement>(
             *s.world, s.mesh, *s.direct, s.buried, s.around.distance,
@@ -124,17 +125,22 @@ bool ask_probes(State& s, const std::atomic<bool>& cancel) {
 void step_refine(State& s, const std::atomic<bool>& cancel) {
     s.status.stage = SolveStage::direct;
     const std::size_t before = s.mesh.vertices.size();
-    const bool done = refine_indirect(s, cancel) && s.direct->light_vertices(cancel) && s.direct->refine(cancel);
+    // Gathering shows what the first levels give; the finer ones cost more rays and change less.
+    const bool gathering = s.solver() == SolverKind::gathering;
+    const std::uint32_t levels = gathering && !s.refined ? first_direct_levels : no_index;
+    const bool done = refine_indirect(s, cancel) && s.direct->light_vertices(cancel) &&
+                      s.direct->refine(cancel, levels) && s.direct->light_vertices(cancel);
     if (s.mesh.vertices.size() != before) publish_mesh(s);
     if (!done) return;
-    // Gathering asks its probes last: they tell how wrong the light is, and make none of it.
-    if (s.solver() != SolverKind::gathering && !ask_probes(s, cancel)) return;
-    take_indirect_level(s);
+    // It asks its probes last: they tell how wrong the light is, and make none of it.
+    if (!gathering && !ask_probes(s, cancel)) return;
+    if (!s.refined) take_indirect_level(s);
     s.refined = true;
-    // The first picture's rays ended at vertices of the mesh before.
+    // The rays there are ended at vertices of the mesh before.
+    if (s.pass_open) s.passes.pop_back();
+    s.pass_open = false;
     s.kept_hits.clear();
     for (GatherPass& pass : s.passes) s.kept_hits.push_back(std::move(pass.hits));
-    if (s.pass_open) s.kept_hits.pop_back();
     s.passes.clear();
     start_solver(s);
 }

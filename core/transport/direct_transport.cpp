@@ -12,6 +12,7 @@ namespace lueur {
 
 namespace {
 
+constexpr float look_share = 0.3f;      // of what a place counts for, where one of many luminaires is only looked at
 constexpr float small_size = 0.25f;     // of the coarse element size: what is smaller counts by its area
 constexpr float long_edge_share = 0.4f; // of the coarse element size: longer edges are looked at in any case
 
@@ -30,12 +31,14 @@ DirectTransport::DirectTransport(const World& world, Mesh& mesh, std::vector<Emi
     deviations_ = factors_;
     area_ = vertex_areas(mesh_);
     buried_.assign(mesh_.vertices.size(), 0);
+    known_ = buried_;
 }
 
 // size: m, across what this light stands for.
-void DirectTransport::light(glm::vec3 origin, glm::vec3 normal, float size, float* factors, float* deviations) const {
+void DirectTransport::light(glm::vec3 origin, glm::vec3 normal, float size, Care care, float* factors,
+                            float* deviations) const {
     const float part = params_.element_size > 0 ? std::min(1.0f, size / (small_size * params_.element_size)) : 1;
-    const float share = part * part;
+    const float share = part * part * (care == Care::looked_at && emitters_.size() > 1 ? look_share : 1);
     rays_.fetch_add(direct_form_factors(world_, emitters_, weight_, origin, normal, share, factors, deviations),
                     std::memory_order_relaxed);
 }
@@ -71,7 +74,9 @@ bool DirectTransport::light_vertices(const std::atomic<bool>& cancel) {
         for (std::uint32_t v = first; v < last; ++v) {
             const std::size_t row = std::size_t(v) * emitters_.size();
             float* factors = factors_.data() + row;
-            light(origins_[v], mesh_.vertices[v].normal, std::sqrt(area_[v]), factors, deviations_.data() + row);
+            if (!known_[v])
+                light(origins_[v], mesh_.vertices[v].normal, std::sqrt(area_[v]), Care::kept, factors,
+                      deviations_.data() + row);
             buried_[v] = 0;
             if (guessed_light(factors) == 0) find_buried(world_, mesh_, origins_, v, v + 1, buried_);
         }
@@ -80,7 +85,10 @@ bool DirectTransport::light_vertices(const std::atomic<bool>& cancel) {
         double sum = 0;
         for (std::uint32_t v = 0; v < count; ++v) sum += guessed_light(at_vertex(v));
         floor_ = static_cast<float>(0.25 * sum / count); // darker than this, a relative error is not seen
+    }
+    if (done && spread_pending_) {
         spread_deviations();
+        spread_pending_ = false;
     }
     return done;
 }
@@ -115,33 +123,21 @@ void DirectTransport::split_bent() {
     }
     const std::uint32_t before = static_cast<std::uint32_t>(mesh_.vertices.size());
     edges_.split(bent, params_.most_vertices);
-    // New vertices at middles that were looked at are lit already; the others (made for conformity) are lit now.
+    follow_vertices();
     const std::uint32_t after = static_cast<std::uint32_t>(mesh_.vertices.size());
-    factors_.resize(std::size_t(after) * emitters_.size(), 0);
-    deviations_.resize(factors_.size(), 0);
-    buried_.resize(after, 0);
-    origins_ = ray_origins(mesh_, world_.epsilon());
-    area_ = vertex_areas(mesh_);
-    tbb::parallel_for(
-        tbb::blocked_range<std::uint32_t>(before, after, 16), [&](const tbb::blocked_range<std::uint32_t>& range) {
-            for (std::uint32_t v = range.begin(); v < range.end(); ++v) {
-                const std::uint32_t looked_at = edges_.edge_of(v);
-                const std::size_t row = std::size_t(v) * emitters_.size();
-                float *factors = factors_.data() + row, *deviations = deviations_.data() + row;
-                if (looked_at != no_index) {
-                    const std::size_t edge = std::size_t(looked_at) * emitters_.size();
-                    std::copy_n(edge_factors_.data() + edge, emitters_.size(), factors);
-                    std::copy_n(edge_deviations_.data() + edge, emitters_.size(), deviations);
-                } else
-                    light(origins_[v], mesh_.vertices[v].normal, std::sqrt(area_[v]), factors, deviations);
-                if (guessed_light(factors) == 0) find_buried(world_, mesh_, origins_, v, v + 1, buried_);
+    // Of a single luminaire a new vertex at a middle that was looked at is lit already; the others are lit now.
+    vertex_cursor_ = before;
+    if (emitters_.size() == 1)
+        for (std::uint32_t v = before; v < after; ++v)
+            if (const std::uint32_t looked_at = edges_.edge_of(v); looked_at != no_index) {
+                factors_[v] = edge_factors_[looked_at];
+                deviations_[v] = edge_deviations_[looked_at];
+                known_[v] = 1;
             }
-        });
-    vertex_cursor_ = after;
     refined_ = after == before || after >= params_.most_vertices;
     if (refined_) {
         misfit_ = misfit_count_ > 0 ? std::sqrt(misfit_sum_ / double(misfit_count_)) : 0;
-        spread_deviations();
+        spread_pending_ = true;
     }
 }
 
@@ -170,11 +166,19 @@ void DirectTransport::spread_deviations() {
 }
 
 void DirectTransport::follow_mesh() {
+    follow_vertices();
+    if (!refined_) edges_.follow_mesh(); // refine() goes on from here
+    level_begun_ = false;
+}
+
+// New vertices have what their parents have.
+void DirectTransport::follow_vertices() {
     const std::uint32_t before = static_cast<std::uint32_t>(buried_.size());
     const std::uint32_t count = static_cast<std::uint32_t>(mesh_.vertices.size());
     factors_.resize(std::size_t(count) * emitters_.size(), 0);
     deviations_.resize(factors_.size(), 0);
     buried_.resize(count, 0);
+    known_.resize(count, 0);
     for (std::uint32_t v = before; v < count; ++v) {
         const auto& p = mesh_.vertices[v].parents;
         buried_[v] = buried_[p[0]] && buried_[p[1]];
@@ -187,32 +191,32 @@ void DirectTransport::follow_mesh() {
     }
     origins_ = ray_origins(mesh_, world_.epsilon());
     area_ = vertex_areas(mesh_);
-    if (!refined_) edges_.follow_mesh(); // refine() goes on from here
-    level_begun_ = false;
 }
 
-bool DirectTransport::refine(const std::atomic<bool>& cancel) {
-    if (refined_ || emitters_.empty()) return true;
+bool DirectTransport::refine(const std::atomic<bool>& cancel, std::uint32_t levels) {
+    if (refined() || level_ >= levels) return true;
     if (!level_begun_) {
         begin_level();
         level_begun_ = true;
     }
     const float epsilon = world_.epsilon();
-    const bool done = run_slice(
-        edge_cursor_, static_cast<std::uint32_t>(edges_.edges().size()), 32, cancel,
-        [&](std::uint32_t first, std::uint32_t last) {
-            for (std::uint32_t e = first; e < last; ++e) {
-                const EdgeRefinement::Edge& edge = edges_.edges()[e];
-                const EdgeRefinement::Place middle = edges_.middle(edge, epsilon);
-                const float length = glm::distance(mesh_.vertices[edge.a].position, mesh_.vertices[edge.b].position);
-                light(middle.origin, middle.normal, length, edge_factors_.data() + std::size_t(e) * emitters_.size(),
-                      edge_deviations_.data() + std::size_t(e) * emitters_.size());
-            }
-        });
+    const bool done = run_slice(edge_cursor_, static_cast<std::uint32_t>(edges_.edges().size()), 32, cancel,
+                                [&](std::uint32_t first, std::uint32_t last) {
+                                    for (std::uint32_t e = first; e < last; ++e) {
+                                        const EdgeRefinement::Edge& edge = edges_.edges()[e];
+                                        const EdgeRefinement::Place middle = edges_.middle(edge, epsilon);
+                                        const float length = glm::distance(mesh_.vertices[edge.a].position,
+                                                                           mesh_.vertices[edge.b].position);
+                                        light(middle.origin, middle.normal, length, Care::looked_at,
+                                              edge_factors_.data() + std::size_t(e) * emitters_.size(),
+                                              edge_deviations_.data() + std::size_t(e) * emitters_.size());
+                                    }
+                                });
     if (!done) return false;
     split_bent();
     level_begun_ = false;
-    return refined_;
+    ++level_;
+    return refined_ || level_ >= levels;
 }
 
 } // namespace lueur

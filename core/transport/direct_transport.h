@@ -31,7 +31,10 @@ public:
     // Each brings its stage forward by one time slice; true when the stage is done.
     bool sketch(const std::atomic<bool>& cancel);         // a first guess of D at the vertices there are, one ray each
     bool light_vertices(const std::atomic<bool>& cancel); // D at the vertices there are
-    bool refine(const std::atomic<bool>& cancel);         // then split, level by level, and light the new ones
+    // Then split, level by level, at most until there have been so many. light_vertices() lights the new ones: call it
+    // to its end before refine(), and once more after it.
+    bool refine(const std::atomic<bool>& cancel, std::uint32_t levels = no_index);
+    bool refined() const { return refined_ || emitters_.empty(); } // all levels
 
     // The mesh was cut by someone else: its new vertices have what their parents
     // have, until light_vertices has been called to its end.
@@ -57,10 +60,12 @@ public:
     double progress() const; // of the stage that runs, 0..1
 
 private:
-    void light(glm::vec3 origin, glm::vec3 normal, float size, float* factors, float* deviations) const;
+    enum class Care { looked_at, kept }; // whether light bends somewhere is told by less than what is shown there
+    void light(glm::vec3 origin, glm::vec3 normal, float size, Care care, float* factors, float* deviations) const;
     void spread_deviations();
     void begin_level();
     void split_bent();
+    void follow_vertices();
 
     const World& world_;
     Mesh& mesh_;
@@ -68,15 +73,17 @@ private:
     DirectParams params_;
     EdgeRefinement edges_; // of this level, and their D:
     std::vector<float> edge_factors_, edge_deviations_;
-    std::vector<float> weight_;               // guessed_exitances
-    std::vector<float> factors_, deviations_; // vertices * emitters
-    std::vector<std::uint8_t> buried_;
+    std::vector<float> weight_;                // guessed_exitances
+    std::vector<float> factors_, deviations_;  // vertices * emitters
+    std::vector<std::uint8_t> buried_, known_; // known: lit when its edge was looked at
     std::vector<glm::vec3> origins_;
     std::vector<float> area_; // m^2, of each vertex
     std::uint32_t sketch_cursor_ = 0, vertex_cursor_ = 0;
 
     std::uint32_t edge_cursor_ = 0;
     bool level_begun_ = false, refined_ = false;
+    std::uint32_t level_ = 0;    // so many are done
+    bool spread_pending_ = true; // spread_deviations, when the vertices are lit
     float floor_ = 0;
     double misfit_ = 0, misfit_sum_ = 0;
     std::uint64_t misfit_count_ = 0;

@@ -48,6 +48,7 @@ struct GatherPass {
     // light is read from receivers, direct light from fine vertices.
     std::vector<std::uint32_t> ends;
     std::vector<std::uint32_t> fine_ends;
+    std::uint32_t fine_vertices = 0; // the number of vertices then
     // Rays of the first receivers as traced, kept while the mesh still grows: on the next one they end at other
     // vertices, but none is traced again.
     std::vector<RayHit> hits;

@@ -1,6 +1,7 @@
 #include "core/transport/indirect_refinement.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <tbb/blocked_range.h>
@@ -14,7 +15,7 @@ namespace lueur {
 
 namespace {
 
-constexpr std::uint32_t rays_a_place = 64;
+constexpr std::uint32_t rays_a_place = 32; // differences between places count, and the rays are alike
 constexpr float grey_reflectance = 0.5f;
 constexpr float close_edge = 0.7f; // of the distance to what is around: longer edges are looked at
 
@@ -50,8 +51,11 @@ IndirectRefinement::Seen IndirectRefinement::gather(glm::vec3 origin, glm::vec3 
     const Frame frame(normal);
     double light = 0, nearness = 0;
     int back_faces = 0;
-    for (std::uint32_t k = 0; k < rays_a_place; ++k) {
-        const Hit hit = world_.closest({origin, frame.world(cosine_direction(r2_point(k, {0, 0})))});
+    std::array<glm::vec3, rays_a_place> directions;
+    std::array<Hit, rays_a_place> hits;
+    for (std::uint32_t k = 0; k < rays_a_place; ++k) directions[k] = frame.world(cosine_direction(r2_point(k, {0, 0})));
+    world_.closest(origin, directions, hits);
+    for (const Hit& hit : hits) {
         if (!hit.any()) continue;
         nearness += 1 / std::max(double(hit.t), 1e-20);
         back_faces += hit.back_face;

@@ -10,7 +10,7 @@ namespace {
 
 // Of the light that arrives: what counts for less is looked at less closely, so that each errs by about a hundredth of
 // all light where its shadow's edge falls.
-constexpr float two_cuts_from = 0.25f, one_cut_from = 0.12f, whole_cells_from = 0.04f, probes_from = 0.02f;
+constexpr float two_cuts_from = 0.4f, one_cut_from = 0.2f, whole_cells_from = 0.06f, probes_from = 0.03f;
 constexpr float shadow_share = 0.1f; // of the light there would be without shadows: darker is not told from dark
 // One ray decides for all of a luminaire; where its shadow's edge lies is not known, and few receivers are in one.
 constexpr float one_ray_deviation = 0.1f;
