@@ -11,6 +11,7 @@
 // seen, near and large, which dozens of shadow rays to all of the sky miss.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <vector>
@@ -21,7 +22,10 @@
 
 namespace lueur {
 
-inline constexpr std::uint32_t probe_count = 600; // that tell the error of a solution
+// That tell the error of a solution: more of them where there are many small surfaces to be wrong on.
+inline std::uint32_t probe_count(const Mesh& mesh) {
+    return std::clamp(static_cast<std::uint32_t>(mesh.elements.size() / 150), 400u, 800u);
+}
 
 struct ErrorProbes {
     struct Point {

@@ -63,8 +63,8 @@ std::vector<float> half_differences(std::span<const GatherPass> passes, const Sc
     return difference;
 }
 
-double relative_ray_error(std::span<const float> irradiance, std::span<const float> variance,
-                          std::span<const float> weight) {
+double relative_ray_error(std::span<const float> irradiance, std::span<const float> shown_difference,
+                          std::span<const float> weight, const SmoothedReceivers& smoothed) {
     double area = 0, flux = 0;
     for (std::size_t i = 0; i < weight.size(); ++i) area += weight[i], flux += double(weight[i]) * irradiance[i];
     if (!(flux > 0)) return 0;
@@ -72,7 +72,8 @@ double relative_ray_error(std::span<const float> irradiance, std::span<const flo
     double sum = 0, counted = 0;
     for (std::size_t i = 0; i < weight.size(); ++i) {
         if (weight[i] <= 0 || irradiance[i] < dark) continue;
-        sum += double(weight[i]) * variance[i] / (double(irradiance[i]) * irradiance[i]);
+        const double relative = double(shown_difference[smoothed.vertex[i]]) / irradiance[i];
+        sum += double(weight[i]) * relative * relative;
         counted += weight[i];
     }
     return counted > 0 ? std::sqrt(sum / counted) : 0;
@@ -98,14 +99,9 @@ double grey_ray_error(std::span<const GatherPass> passes, std::span<const float>
     }
     b.indirect.pop_back();
     b.direct.pop_back();
-    const std::vector<float> difference = smoothed.of(half_differences(passes, b));
-    std::vector<float> irradiance(n), variance(n); // of a solution, what arrives is what is reflected over grey
-    for (std::uint32_t i = 0; i < n; ++i) {
-        const std::uint32_t v = smoothed.vertex[i];
-        irradiance[i] = fine_direct[v] + b.indirect[i] / grey;
-        variance[i] = difference[v] * difference[v];
-    }
-    return relative_ray_error(irradiance, variance, weight);
+    std::vector<float> irradiance(n); // of a solution, what arrives is what is reflected over grey
+    for (std::uint32_t i = 0; i < n; ++i) irradiance[i] = fine_direct[smoothed.vertex[i]] + b.indirect[i] / grey;
+    return relative_ray_error(irradiance, smoothed.of(half_differences(passes, b)), weight, smoothed);
 }
 
 } // namespace lueur

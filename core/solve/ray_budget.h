@@ -33,13 +33,13 @@ struct SmoothedReceivers {
 // spread evenly between each other, and so differ more than they err.
 std::vector<float> half_differences(std::span<const GatherPass> passes, const ScalarRadiosity& radiosity);
 
-// Relative RMS standard error over receivers brighter than 2 % of the mean, of their irradiances and the variances of
-// those. Receivers with weight 0 do not count.
-double relative_ray_error(std::span<const float> irradiance, std::span<const float> variance,
-                          std::span<const float> weight);
+// Relative RMS standard error over receivers brighter than 2 % of the mean: of their irradiances, and of what differs
+// at vertices as shown. Receivers with weight 0 do not count.
+double relative_ray_error(std::span<const float> irradiance, std::span<const float> shown_difference,
+                          std::span<const float> weight, const SmoothedReceivers& smoothed);
 
-// The same for the grey stand-in, which it solves. fine_direct: guessed irradiance at the fine vertices. An even number
-// of passes, at least two, else 1.
+// The same for the grey stand-in, which it solves. fine_direct: guessed irradiance at all vertices. An even number of
+// passes, at least two, else 1.
 double grey_ray_error(std::span<const GatherPass> passes, std::span<const float> fine_direct,
                       std::span<const float> weight, const SmoothedReceivers& smoothed);
 

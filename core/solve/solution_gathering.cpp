@@ -12,8 +12,8 @@ namespace lueur {
 namespace {
 
 constexpr double residual_target = 2e-4;             // |r| / |b|, worst channel
-constexpr double first_residual_target = 5e-3;       // of the first picture, whose rays know no more
 constexpr double residuals_in_a_sum = 4;             // a sum of bases may have more of it than each
+constexpr double first_residual_target = 5e-3;       // of the first picture, whose rays know no more
 constexpr std::uint32_t most_gathering_sweeps = 400; // a system that needs more does not converge
 constexpr std::uint32_t coarse_passes = 2;           // before the mesh is refined
 constexpr double smoothing_farthest = 3;             // coarse element sizes
@@ -139,7 +139,8 @@ void take_stock_of_gathering(State& s) {
     const double unsolved = gathering_missing_share(s, areas, direct);
     for (std::uint32_t i = 0; i < receivers; ++i)
         direct[i] += static_cast<float>(luminous(s, s.gathered_direct[i]) + luminous(s, s.system.gathered()[i]));
-    const double rays = s.passes.size() % independent_sets == 0 ? relative_ray_error(direct, variance, areas) : 1;
+    const double rays =
+        s.passes.size() % independent_sets == 0 ? relative_ray_error(direct, s.indirect_deviation, areas, smoothed) : 1;
     const double interpolation = s.direct->misfit();
     s.status.estimated_error =
         std::min(1.0, std::sqrt(rays * rays + unsolved * unsolved + interpolation * interpolation));
@@ -322,16 +323,20 @@ void step_gathering(State& s, const std::atomic<bool>& cancel) {
     s.status.residual = s.system.relative_residual();
     if (s.system.relative_residual() > target) return;
     s.rays_unjudged = true;
-    if (s.fully_refined()) plan_passes(s);
-    if (s.fully_refined() && s.passes.size() >= s.passes_wanted) {
-        s.only_probes_left = true;
-        return;
-    }
+    const bool refined = s.fully_refined();
+    if (refined) plan_passes(s);
+    if (refined && s.passes.size() >= s.passes_wanted && s.probes.complete()) return settle(s);
     take_stock_of_gathering(s); // a settled solution is judged when it is shown
-    // First what tells most: rays, as long as they are few, then shadows' edges and contacts.
-    const bool more_rays = s.fully_refined() || (!s.refined && s.passes.size() < coarse_passes);
-    if (!s.refined && more_rays) s.passes_wanted = std::min(coarse_passes, 2 * s.passes_wanted);
-    s.phase = more_rays ? SolvePhase::transport : SolvePhase::refine;
+    if (refined) {
+        s.only_probes_left = s.passes.size() >= s.passes_wanted;
+        if (!s.only_probes_left) s.phase = SolvePhase::transport;
+    } else if (!s.refined && s.passes.size() < first_passes) {
+        // First what tells most: rays, as long as they are few, then shadows' edges and contacts.
+        s.passes_wanted = std::min(first_passes, 2 * s.passes_wanted);
+        s.phase = SolvePhase::transport;
+    } else {
+        s.phase = SolvePhase::refine;
+    }
 }
 
 // One sweep, or what comes before the first: of what one luminaire does alone, or of what is shown, from which edits

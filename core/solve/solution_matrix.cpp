@@ -234,7 +234,7 @@ void step_matrix(State& s, const std::atomic<bool>& cancel, bool one_shot) {
     PatchSolve& p = s.patch_solve;
     s.status.stage = SolveStage::solving;
     // Direct light of a finer mesh is not used here, so that refinement, which else asks for them, has not been.
-    if (!s.probes.complete() && !step_probes(s, cancel)) return;
+    if (!ask_probes(s, cancel)) return;
     const bool shots = s.solver() == SolverKind::overshooting;
     double enough = (shots ? unshot_of_shots : unshot_of_sweeps) * s.scene->solve.target_error;
     if (shots) // of the emitted flux: each unit unshot is reflected on, 1 / (1 - rho_ave) times if nothing is lost

@@ -46,8 +46,6 @@ std::vector<float> flux_weights(const Solution::State& s);
 
 // Transport that all share: solution_transport.cpp.
 void publish_mesh(Solution::State& s); // the mesh has grown
-// Probes of the mesh as it is: placed when there are none, then traced by one time slice; true at the end.
-bool step_probes(Solution::State& s, const std::atomic<bool>& cancel);
 void step_mesh(Solution::State& s);
 void step_sketch(Solution::State& s, const std::atomic<bool>& cancel);
 void step_light(Solution::State& s, const std::atomic<bool>& cancel);

@@ -105,7 +105,7 @@ void step_burial(State& s, const std::atomic<bool>& cancel) {
     start_solver(s);
 }
 
-bool step_probes(State& s, const std::atomic<bool>& cancel) {
+bool ask_probes(State& s, const std::atomic<bool>& cancel) {
     if (s.probes.complete()) return true;
     const std::vector<std::uint8_t> buried = s.all_buried();
     const std::uint32_t seed = s.scene->solve.seed;
@@ -114,7 +114,7 @@ bool step_probes(State& s, const std::atomic<bool>& cancel) {
         for (std::uint32_t e = 0; e < luminaire.size(); ++e)
             if (const auto l = s.luminaire_of(s.mesh.coarse_surface[e], s.mesh.coarse_back[e] != 0))
                 luminaire[e] = static_cast<std::uint32_t>(*l);
-        place_probes(*s.world, s.mesh, *s.direct, buried, std::move(luminaire), probe_count, seed, s.probes);
+        place_probes(*s.world, s.mesh, *s.direct, buried, std::move(luminaire), probe_count(s.mesh), seed, s.probes);
     }
     if (!trace_probes(*s.world, s.mesh, *s.direct, buried, seed, cancel, s.probes)) return false;
     s.status.rays +=
