@@ -130,11 +130,9 @@ void take_stock_of_gathering(State& s) {
         for (std::size_t l = 0; l < exitance.size(); ++l) radiosity.direct[v] += static_cast<float>(d[l] * on_paint[l]);
     }
 
-    s.indirect_deviation = smoothed_receivers(s).of(half_differences(s.passes, radiosity));
+    const SmoothedReceivers smoothed = smoothed_receivers(s);
+    s.indirect_deviation = smoothed.of(half_differences(s.passes, radiosity));
     for (float& d : s.indirect_deviation) d = std::abs(d);
-    std::vector<float> variance;
-    for (const std::uint32_t v : s.receivers.vertex)
-        variance.push_back(s.indirect_deviation[v] * s.indirect_deviation[v]);
     const std::vector<float> areas = receiver_areas(s);
     const double unsolved = gathering_missing_share(s, areas, direct);
     for (std::uint32_t i = 0; i < receivers; ++i)
@@ -307,7 +305,7 @@ void trace_gathering_rows(State& s, const std::atomic<bool>& cancel) {
 void step_gathering(State& s, const std::atomic<bool>& cancel) {
     s.status.stage = SolveStage::solving;
     if (s.only_probes_left) {
-        if (step_probes(s, cancel)) settle(s);
+        if (ask_probes(s, cancel)) settle(s);
         return;
     }
     if (s.status.sweeps == 0 && has_no_finite_solution(s)) return fail(s, no_finite_solution);
@@ -330,9 +328,9 @@ void step_gathering(State& s, const std::atomic<bool>& cancel) {
     if (refined) {
         s.only_probes_left = s.passes.size() >= s.passes_wanted;
         if (!s.only_probes_left) s.phase = SolvePhase::transport;
-    } else if (!s.refined && s.passes.size() < first_passes) {
+    } else if (!s.refined && s.passes.size() < coarse_passes) {
         // First what tells most: rays, as long as they are few, then shadows' edges and contacts.
-        s.passes_wanted = std::min(first_passes, 2 * s.passes_wanted);
+        s.passes_wanted = std::min(coarse_passes, 2 * s.passes_wanted);
         s.phase = SolvePhase::transport;
     } else {
         s.phase = SolvePhase::refine;

@@ -50,6 +50,8 @@ void step_mesh(Solution::State& s);
 void step_sketch(Solution::State& s, const std::atomic<bool>& cancel);
 void step_light(Solution::State& s, const std::atomic<bool>& cancel);
 void step_burial(Solution::State& s, const std::atomic<bool>& cancel);
+// Places and traces the points where the solution is asked whether it is right; true at the end.
+bool ask_probes(Solution::State& s, const std::atomic<bool>& cancel);
 void step_refine(Solution::State& s, const std::atomic<bool>& cancel); // direct light on the fine mesh
 
 // Gathering on kept rows: solution_gathering.cpp.

@@ -133,7 +133,7 @@ void step_refine(State& s, const std::atomic<bool>& cancel) {
     if (s.mesh.vertices.size() != before) publish_mesh(s);
     if (!done) return;
     // It asks its probes last: they tell how wrong the light is, and make none of it.
-    if (!gathering && !step_probes(s, cancel)) return;
+    if (!gathering && !ask_probes(s, cancel)) return;
     if (!s.refined) take_indirect_level(s);
     s.refined = true;
     // The rays there are ended at vertices of the mesh before.
