@@ -147,6 +147,10 @@ void GatherSystem::set_sources(const ChannelField& rho, const ChannelField& gath
     refresh_residual();
 }
 
+void GatherSystem::set_guess(ChannelField radiosity) {
+    x_ = std::move(radiosity);
+}
+
 void GatherSystem::set_rows(const std::vector<GatherPass>& passes) {
     const std::atomic<bool> never{false};
     apply_rows(passes, RayEnds::coarse, x_, h_, never);

@@ -47,6 +47,7 @@ public:
     // The same with a first guess of one's own: `radiosity` has n + 1 rows, `gathered_radiosity` is W of it.
     void set_sources(const ChannelField& rho, const ChannelField& gathered, ChannelField radiosity,
                      ChannelField gathered_radiosity);
+    void set_guess(ChannelField radiosity);               // n + 1 rows; set_rows and set_sources are still to come
     void set_rows(const std::vector<GatherPass>& passes); // other rays: W U anew
     void clear();                                         // U = 0
 

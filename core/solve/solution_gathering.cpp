@@ -198,12 +198,38 @@ LightBasesRoom room_for_bases(const State& s) {
     return {s.receivers.count(), s.channels(), s.luminaire_exitance.size()};
 }
 
+// Receivers that have come to those of the system are given what the vertices have between which they lie: a picture
+// that is there does not go dark while the finer one is solved.
+ChannelField radiosity_of_more_receivers(const State& s) {
+    const ChannelField& known = s.system.radiosity();
+    const std::uint32_t before = s.system.count(), count = s.receivers.count();
+    ChannelField guess(count + 1, s.channels());
+    for (std::uint32_t i = 0; i < count; ++i) {
+        if (i < before) {
+            std::copy_n(known[i], guess.stride, guess[i]);
+            continue;
+        }
+        for (const std::uint32_t parent : s.mesh.vertices[s.receivers.vertex[i]].parents) { // they come first
+            if (parent == no_index) continue;
+            const float* row = guess[s.receivers.of_vertex[parent]];
+            for (int c = 0; c < guess.stride; ++c) guess[i][c] += 0.5f * row[c];
+        }
+    }
+    return guess;
+}
+
 // New sources, paints or rays: one reflection of direct light is gathered anew, then the system holds them.
 void gather_direct(State& s, bool new_rays) {
     const std::uint32_t n = s.receivers.count();
     const std::atomic<bool> never{false};
     s.indirect_irradiance = ChannelField(s.mesh.indirect_vertex_count, s.channels());
-    if (!s.solving || s.system.count() != n) s.system = GatherSystem(n, s.channels(), receiver_areas(s));
+    if (!s.solving || s.system.count() != n) {
+        const bool more = s.solving && s.system.count() > 0 && s.system.count() < n &&
+                          s.system.radiosity().stride == ChannelField(0, s.channels()).stride;
+        ChannelField guess = more ? radiosity_of_more_receivers(s) : ChannelField(n + 1, s.channels());
+        s.system = GatherSystem(n, s.channels(), receiver_areas(s));
+        s.system.set_guess(std::move(guess));
+    }
     if (new_rays) {
         s.light_bases.forget();
         s.system.set_rows(s.passes);
