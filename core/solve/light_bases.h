@@ -16,7 +16,7 @@
 
 namespace lueur {
 
-// Where luminaires and rays meet: how `prepare` finds out what one luminaire does, and what sums are added up to.
+// How large the solutions are, how many there may be, and what memory.
 struct LightBasesRoom {
     std::uint32_t receivers = 0;
     int channels = 0;

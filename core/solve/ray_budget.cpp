@@ -5,6 +5,8 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "core/solve/relative_error.h"
+
 namespace lueur {
 
 namespace {
@@ -68,7 +70,7 @@ double relative_ray_error(std::span<const float> irradiance, std::span<const flo
     double area = 0, flux = 0;
     for (std::size_t i = 0; i < weight.size(); ++i) area += weight[i], flux += double(weight[i]) * irradiance[i];
     if (!(flux > 0)) return 0;
-    const double dark = 0.02 * flux / area;
+    const double dark = dark_share * flux / area;
     double sum = 0, counted = 0;
     for (std::size_t i = 0; i < weight.size(); ++i) {
         if (weight[i] <= 0 || irradiance[i] < dark) continue;

@@ -139,7 +139,6 @@ void smooth(const Smoothing& smoothing, ChannelField& field) {
                 const float* row = before[smoothing.neighbour[k]];
                 for (std::size_t c = 0; c < stride; ++c) out[c] += weight * row[c];
             }
-            for (std::size_t c = 0; c < stride; ++c) out[c] = std::max(0.0f, out[c]); // beside a steep place
         }
     });
 }

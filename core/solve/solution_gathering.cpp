@@ -1,6 +1,7 @@
 // The gathering solver in a solution: rows of rays, as many as the target error needs, and sweeps over them.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/solve/least_absorbed.h"
 #include "core/solve/ray_budget.h"
@@ -179,13 +180,36 @@ bool has_no_finite_solution(const State& s) {
     return false;
 }
 
+// What light can be at least, in each channel: nothing; without end where luminaires or paints lie outside the gamut of
+// trichromatic channels.
+std::vector<float> least_light(const State& s) {
+    std::vector<float> least(static_cast<std::size_t>(s.channels()), 0);
+    for (const auto* all : {&s.luminaire_exitance, &s.material_rho})
+        for (const std::vector<double>& values : *all)
+            for (std::size_t c = 0; c < values.size(); ++c)
+                if (values[c] < 0) least[c] = -std::numeric_limits<float>::infinity();
+    return least;
+}
+
+// Sweeps make the residual small, not each value: on the way some are less than nothing, and planes laid through steep
+// places are too. The solution is not.
 void refresh_indirect(State& s) {
-    for (std::uint32_t v = 0; v < s.indirect_irradiance.count; ++v) {
+    const std::vector<float> least = least_light(s);
+    ChannelField& indirect = s.indirect_irradiance;
+    const auto for_all_vertices = [&](const auto& f) {
+        tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, indirect.count, 256), [&](const auto& range) {
+            for (std::uint32_t v = range.begin(); v < range.end(); ++v) f(v);
+        });
+    };
+    for_all_vertices([&](std::uint32_t v) {
         const std::uint32_t i = s.receivers.of_vertex[v];
-        for (int c = 0; c < s.channels(); ++c)
-            s.indirect_irradiance[v][c] = s.gathered_direct[i][c] + s.system.gathered()[i][c];
-    }
-    smooth(s.smoothing, s.indirect_irradiance);
+        for (std::size_t c = 0; c < least.size(); ++c)
+            indirect[v][c] = s.gathered_direct[i][c] + s.system.gathered()[i][c];
+    });
+    smooth(s.smoothing, indirect);
+    for_all_vertices([&](std::uint32_t v) {
+        for (std::size_t c = 0; c < least.size(); ++c) indirect[v][c] = std::max(least[c], indirect[v][c]);
+    });
 }
 
 void renew_smoothing(State& s) {
@@ -218,21 +242,28 @@ ChannelField radiosity_of_more_receivers(const State& s) {
     return guess;
 }
 
+// Rays that the system knows nothing of: edits come between passes too.
+bool has_other_rows(const State& s) {
+    return !s.solving || s.rows_of_system != s.passes_traced;
+}
+
 // New sources, paints or rays: one reflection of direct light is gathered anew, then the system holds them.
-void gather_direct(State& s, bool new_rays) {
+void gather_direct(State& s) {
     const std::uint32_t n = s.receivers.count();
     const std::atomic<bool> never{false};
+    const bool other_rows = has_other_rows(s);
     s.indirect_irradiance = ChannelField(s.mesh.indirect_vertex_count, s.channels());
     if (!s.solving || s.system.count() != n) {
-        const bool more = s.solving && s.system.count() > 0 && s.system.count() < n &&
-                          s.system.radiosity().stride == ChannelField(0, s.channels()).stride;
-        ChannelField guess = more ? radiosity_of_more_receivers(s) : ChannelField(n + 1, s.channels());
+        std::optional<ChannelField> guess;
+        if (s.solving && s.system.count() > 0) guess = radiosity_of_more_receivers(s);
         s.system = GatherSystem(n, s.channels(), receiver_areas(s));
-        s.system.set_guess(std::move(guess));
+        if (guess) s.system.set_guess(std::move(*guess));
     }
-    if (new_rays) {
+    if (other_rows) {
         s.light_bases.forget();
+        s.basis_in_the_making.reset();
         s.system.set_rows(s.passes);
+        s.rows_of_system = s.passes_traced;
         renew_smoothing(s);
     }
     s.light_bases.keep_for(room_for_bases(s), s.material_rho);
@@ -286,7 +317,7 @@ void start_gathering(State& s, bool same_sources) {
         return;
     }
     s.status.sweeps = 0;
-    if (!s.solving || !same_sources) gather_direct(s, !s.solving);
+    if (!same_sources || has_other_rows(s)) gather_direct(s);
     s.phase = SolvePhase::solve;
 }
 
@@ -315,6 +346,7 @@ void trace_gathering_rows(State& s, const std::atomic<bool>& cancel) {
     s.status.rays += traced.load();
     if (!done) return;
     s.pass_open = false;
+    ++s.passes_traced;
     if (s.fully_refined()) s.passes.back().hits = {};
     s.status.rays_per_receiver = static_cast<std::uint32_t>(s.passes.size()) * rays_per_pass;
     s.status.row_entries = std::uint64_t(s.receivers.count()) * s.status.rays_per_receiver;
@@ -324,7 +356,7 @@ void trace_gathering_rows(State& s, const std::atomic<bool>& cancel) {
         plan_passes(s);
         if (s.passes.size() < s.passes_wanted) return;
     }
-    gather_direct(s, true);
+    gather_direct(s);
     s.phase = SolvePhase::solve;
 }
 
@@ -383,8 +415,8 @@ bool prepare_gathering_edits(State& s, const std::atomic<bool>& cancel) {
         exitance[*luminaire].assign(static_cast<std::size_t>(s.channels()), 1.0);
     }
     if (!s.basis_in_the_making || s.basis_in_the_making->exitance != exitance ||
-        s.basis_in_the_making->rho != s.material_rho || s.basis_in_the_making->rays != s.status.row_entries) {
-        Making making{exitance, s.material_rho, s.status.row_entries, 0, s.gathered_direct, s.system};
+        s.basis_in_the_making->rho != s.material_rho) {
+        Making making{exitance, s.material_rho, 0, s.gathered_direct, s.system};
         if (*luminaire != Making::all_as_they_are) {
             if (!apply_rows(s.passes, RayEnds::fine, reflected_direct(s, exitance), making.gathered, cancel))
                 return true;

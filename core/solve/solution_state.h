@@ -71,6 +71,7 @@ struct Solution::State {
     };
     std::optional<IndirectLevel> indirect_level; // not in use yet: rows that are there refer to the coarse one
     std::vector<GatherPass> passes;
+    std::uint64_t passes_traced = 0; // in all, also those that are not kept any more: tells rows from other rows
     std::vector<std::vector<RayHit>> kept_hits; // of each pass, while the mesh it was traced on still grows
     bool pass_open = false;                     // the last pass is being traced
     std::uint32_t passes_wanted = 1;            // from the geometry alone: see passes_for
@@ -96,12 +97,12 @@ struct Solution::State {
     std::vector<std::optional<LuminaireIndex>> object_luminaire;
 
     GatherSystem system;
-    LightBases light_bases; // of its rows
+    std::uint64_t rows_of_system = 0; // passes_traced when it was given its rows
+    LightBases light_bases;           // of these
     struct BasisInTheMaking {
         static constexpr std::size_t all_as_they_are = no_index; // in place of one luminaire
         Exitances exitance;                                      // what it is the solution of
-        Exitances rho;                                           // it is made for, and for as many rays
-        std::uint64_t rays;
+        Exitances rho;                                           // it is made for
         std::uint32_t sweeps;
         ChannelField gathered;
         GatherSystem system;

@@ -6,16 +6,14 @@
 // time and by the clock.
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
-#include <cstring>
 #include <ctime>
 #include <map>
 
 #include <fmt/format.h>
 
-#include "core/scene/scene_file.h"
 #include "core/scene/solver_words.h"
 #include "core/solve/solution_state.h"
+#include "tests/bench/program.h"
 
 using namespace lueur;
 
@@ -48,27 +46,19 @@ struct Longest {
 } // namespace
 
 int main(int argc, char** argv) {
-    std::string file;
+    std::string file, solver;
     double seconds = 1e9, error = 0;
-    std::optional<SolverKind> solver;
-    for (int i = 1; i < argc; ++i) {
-        if (!std::strcmp(argv[i], "--solver") && i + 1 < argc)
-            solver = from_word(argv[++i], all_solvers);
-        else if (!std::strcmp(argv[i], "--error") && i + 1 < argc)
-            error = std::atof(argv[++i]) / 100;
-        else if (!std::strcmp(argv[i], "--seconds") && i + 1 < argc)
-            seconds = std::atof(argv[++i]);
-        else
-            file = argv[i];
-    }
-    auto loaded = load_scene(file);
-    if (!loaded) {
-        for (const std::string& line : loaded.error()) fmt::print(stderr, "{}\n", line);
-        return 2;
-    }
-    Scene scene = loaded->scene;
-    if (solver) scene.solve.solver = *solver;
-    if (error > 0) scene.solve.target_error = error;
+    CLI::App program("How long is the longest step of a solution?");
+    program.add_option("scene", file)->required();
+    program.add_option("--solver", solver);
+    program.add_option("--error", error, "percent");
+    program.add_option("--seconds", seconds);
+    if (const auto status = bench::parse(program, argc, argv)) return *status;
+    auto loaded = bench::scene_of(file);
+    if (!loaded) return bench::exit_mistake;
+    Scene scene = std::move(*loaded);
+    if (const auto kind = from_word(solver, all_solvers)) scene.solve.solver = *kind;
+    if (error > 0) scene.solve.target_error = error / 100;
     Solution solution(std::make_shared<const Scene>(std::move(scene)));
     std::map<std::string, Longest> longest;
     const std::atomic<bool> never{false};
