@@ -161,7 +161,7 @@ void Worker::State::publish(bool is_paused) {
 
 void Worker::State::run() {
     lower_priority_of_this_thread();
-    bool unpublished = false;
+    bool unpublished = false, preparing = false;
     std::unique_lock lock(mutex);
     while (true) {
         const bool finished = !solution || solution->status().settled || solution->status().stage == SolveStage::failed;
@@ -175,10 +175,18 @@ void Worker::State::run() {
                 lock.lock();
                 continue; // something may have come in meanwhile
             }
+            if (preparing && solution && !paused) {
+                lock.unlock();
+                const bool more = solution->prepare_edits(cancel);
+                lock.lock();
+                preparing = more;
+                continue;
+            }
             work.wait(lock);
             continue;
         }
         if (quit) return;
+        preparing = true; // again, when it is done
         if (has_request()) {
             take_requests(lock);
             unpublished = true;

@@ -1,8 +1,8 @@
 // The thread that solves. It owns the solution; everybody else sees immutable snapshots.
 //
 // Threads: every member may be called from any thread. submit() never waits for the solver: it cancels what the edit
-// made stale (within one small step, <= 10 ms) and returns. When the target error is met the worker sleeps and uses no
-// CPU.
+// made stale (within one small step, <= 10 ms) and returns. When the target error is met the worker prepares for edits
+// of the luminaires (Solution::prepare_edits), then sleeps and uses no CPU.
 #pragma once
 
 #include <functional>

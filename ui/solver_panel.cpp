@@ -80,8 +80,14 @@ void status_figures(const SolveStatus& status, const UiState& state) {
         figure(state, "Shots", count(status.shots), "Patches that have shot their light");
         figure(state, "Residual", status.residual > 0 ? fmt::format("{:.1e}", status.residual) : "0",
                "Of the equations, of what is emitted, in the worst channel");
-        figure(state, "Matrix", bytes_text(status.matrix_bytes),
-               "Memory of the full matrix of form factors of this scene; taken by the solvers that keep one");
+        std::string matrix =
+            "Memory of the full matrix of form factors of this scene; taken by the solvers that keep one";
+        if (status.form_factor_pairs > 0)
+            matrix += fmt::format(". Of {} pairs of patches that face each other {} are outside the region of the "
+                                  "method, and {} were missed by its pixels",
+                                  count(status.form_factor_pairs), count(status.form_factors_warned),
+                                  count(status.form_factors_missed));
+        figure(state, "Matrix", bytes_text(status.matrix_bytes), matrix.c_str());
         figure(state, "Emitted", short_number(status.emitted_lumens) + " lm", "By all luminaires");
         figure(state, "Last edit",
                status.last_edit_seconds > 0 ? fmt::format("{:.0f} ms", 1000 * status.last_edit_seconds) : "-",

@@ -123,8 +123,9 @@ ChannelField irradiance_channels(const Solution::State& s, std::vector<float>& u
             unshot[v] = 0.5f * (unshot[p[0]] + unshot[p[1]]);
         }
     }
-    std::vector<std::uint8_t> shown;
-    for (std::size_t l = 0; l < s.direct->emitter_count(); ++l) shown.push_back(s.luminaire_is_lit(l));
+    Exitances shown = s.luminaire_exitance;
+    for (std::size_t l = 0; l < shown.size(); ++l)
+        if (!s.luminaire_is_lit(l)) shown[l].clear();
     read_direct(s, shown, h);
     fill_buried(mesh.elements, s.all_buried(), h);
     return h;
@@ -146,10 +147,9 @@ std::vector<float> colour_differences(const Field& field) {
 
 } // namespace
 
-void read_direct(const Solution::State& s, const std::vector<std::uint8_t>& shown, ChannelField& irradiance) {
-    ChannelField exitance(static_cast<std::uint32_t>(shown.size()), s.channels());
-    for (std::uint32_t l = 0; l < exitance.count; ++l)
-        if (shown[l]) std::copy(s.luminaire_exitance[l].begin(), s.luminaire_exitance[l].end(), exitance[l]);
+void read_direct(const Solution::State& s, const Exitances& of, ChannelField& irradiance) {
+    ChannelField exitance(static_cast<std::uint32_t>(of.size()), s.channels());
+    for (std::uint32_t l = 0; l < exitance.count; ++l) std::copy(of[l].begin(), of[l].end(), exitance[l]);
     ChannelField at_rows(s.direct->row_count(), s.channels());
     tbb::parallel_for(Range(0, at_rows.count, 256), [&](const Range& range) {
         for (std::uint32_t r = range.begin(); r < range.end(); ++r)

@@ -25,10 +25,8 @@ const ErrorMesh& error_mesh_of(const Solution::State& state);
 // Fills the error members of a composed field. Everything else of it must be there.
 void estimate_error(const Solution::State& state, Field& field);
 
-// Relative RMS of `deviation` (and of what is added between vertices) over the surfaces, weighted by area; vertices
-// darker than 2 % of the mean and `left_out` ones do not count. Relative to the larger of what is shown and what may be
-// true: nothing is more than wholly wrong, so that a few points that show seven times their light (under a cupboard, in
-// the office: 1 % of the points, 60 of the 75 % of a plain RMS) do not decide the figure of all.
+// Relative RMS (relative_error.h) of `deviation` (and of what is added between vertices) over the surfaces, weighted by
+// area; vertices darker than 2 % of the mean and `left_out` ones do not count.
 double relative_rms(const std::vector<float>& illuminance, const std::vector<float>& deviation,
                     const std::vector<float>& between, const std::vector<float>& area,
                     const std::vector<std::uint8_t>& left_out);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/transport/direct_light.h"
 #include "core/transport/sampling.h"
@@ -41,22 +42,53 @@ std::uint32_t pick(const Located& at, const std::vector<std::uint8_t>& buried, f
     return w[2] > 0 ? at.vertices[2] : (w[1] > 0 ? at.vertices[1] : at.vertices[0]);
 }
 
+constexpr int rays_of_set = ErrorProbes::rays / ErrorProbes::sets,
+              shadow_rays_of_set = ErrorProbes::shadow_rays / ErrorProbes::sets;
+
+// What a direction towards a luminaire counts, of both sets of rays together. Irradiance for unit exitance is the
+// integral of cos / pi, which rays by the cosine law have as their density; those to points of an area A have
+// r^2 / (A cos'). square: r^2; cosines: at the receiver and at the luminaire.
+double count_of_hit(double square, double cos_receiver, double cos_emitter, double area) {
+    const double by_cosine = rays_of_set * cos_receiver / std::numbers::pi,
+                 by_area = shadow_rays_of_set * square / (area * cos_emitter);
+    return cos_receiver / std::numbers::pi / (by_cosine + by_area);
+}
+
+// D by points of the luminaire, which hemisphere rays add to.
+double direct_of_points(const World& world, const Emitter& emitter, glm::vec3 origin, glm::vec3 normal,
+                        glm::vec2 offset) {
+    if (!(emitter.area > 0) || glm::dot(emitter.centre - origin, normal) <= -emitter.radius) return 0;
+    double sum = 0;
+    for (std::uint32_t k = 0; k < shadow_rays_of_set; ++k) {
+        const EmitterPoint p = emitter_point(emitter, r2_point(k, offset));
+        if (emitter_kernel(origin, normal, p) <= 0 || !sees(world, origin, p.position)) continue;
+        const glm::dvec3 d = p.position - origin;
+        const double square = glm::dot(d, d), r = std::sqrt(square);
+        sum += count_of_hit(square, glm::dot(d, glm::dvec3(normal)) / r, -glm::dot(d, glm::dvec3(p.normal)) / r,
+                            emitter.area);
+    }
+    return sum;
+}
+
 } // namespace
 
 void place_probes(const World& world, const Mesh& mesh, const DirectTransport& direct,
-                  const std::vector<std::uint8_t>& buried, std::uint32_t count, std::uint32_t seed,
-                  ErrorProbes& probes) {
+                  const std::vector<std::uint8_t>& buried, std::vector<std::uint32_t> luminaire_of_element,
+                  std::uint32_t count, std::uint32_t seed, ErrorProbes& probes) {
     probes = {};
+    probes.luminaire_of_element = std::move(luminaire_of_element);
     const std::vector<float> uncertainty = direct_uncertainty(mesh, direct);
     const std::vector<glm::vec3> origins = ray_origins(mesh, world.epsilon());
-    // Elements by area, and more of it where direct light is uncertain.
+    // Elements by area, more of it where direct light is uncertain, and more where elements are small: reveals, slats
+    // and books err most, and one probe that stood for two square metres of them would decide the figure of a room.
     std::vector<double> area, density(mesh.elements.size(), 0);
-    double all = 0, uncertain = 0;
+    double all = 0, uncertain = 0, small = 0;
     for (const glm::uvec3& e : mesh.elements) {
         const glm::vec3 a = mesh.vertices[e.x].position;
         area.push_back(
             0.5 * double(glm::length(glm::cross(mesh.vertices[e.y].position - a, mesh.vertices[e.z].position - a))));
         all += area.back();
+        small += std::sqrt(area.back());
         uncertain += area.back() * double(uncertainty[e.x] + uncertainty[e.y] + uncertainty[e.z]);
     }
     if (!(all > 0)) return;
@@ -64,9 +96,10 @@ void place_probes(const World& world, const Mesh& mesh, const DirectTransport& d
     std::vector<double> until;
     for (std::size_t e = 0; e < density.size(); ++e) {
         const glm::uvec3& v = mesh.elements[e];
-        density[e] = 0.5 / all;
+        density[e] = 0.4 / all;
         if (uncertain > 0)
-            density[e] += 0.5 * double(uncertainty[v.x] + uncertainty[v.y] + uncertainty[v.z]) / uncertain;
+            density[e] += 0.3 * double(uncertainty[v.x] + uncertainty[v.y] + uncertainty[v.z]) / uncertain;
+        if (area[e] > 0) density[e] += 0.3 * std::sqrt(area[e]) / small / area[e];
         until.push_back(sum += area[e] * density[e]);
     }
     // Systematic sampling: as well spread over the list of elements, which is spread over the scene, as can be.
@@ -115,7 +148,6 @@ bool trace_probes(const World& world, const Mesh& mesh, const DirectTransport& d
                   const std::vector<std::uint8_t>& buried, std::uint32_t seed, const std::atomic<bool>& cancel,
                   ErrorProbes& probes) {
     const std::size_t emitters = direct.emitter_count();
-    constexpr int per_set = ErrorProbes::rays / ErrorProbes::sets;
     return run_slice(
         probes.cursor, static_cast<std::uint32_t>(probes.points.size()), 4, cancel,
         [&](std::uint32_t first, std::uint32_t last) {
@@ -125,19 +157,31 @@ bool trace_probes(const World& world, const Mesh& mesh, const DirectTransport& d
                 const Frame frame(p.normal);
                 for (std::uint32_t set = 0; set < ErrorProbes::sets; ++set) {
                     const std::uint32_t key = hash(hash(seed, 0x9e0b0000u + set), i);
+                    float* d = probes.direct.data() + (std::size_t(i) * ErrorProbes::sets + set) * emitters;
                     for (std::size_t l = 0; l < emitters; ++l)
-                        probes.direct[(std::size_t(i) * ErrorProbes::sets + set) * emitters + l] =
-                            direct_form_factor_sampled(world, direct.emitters()[l], p.origin, p.normal,
-                                                       ErrorProbes::shadow_rays / ErrorProbes::sets,
-                                                       random_offset(key, static_cast<std::uint32_t>(l) + 1));
+                        d[l] =
+                            static_cast<float>(direct_of_points(world, direct.emitters()[l], p.origin, p.normal,
+                                                                random_offset(key, static_cast<std::uint32_t>(l) + 1)));
                     const glm::vec2 offset = random_offset(key, 0);
-                    for (std::uint32_t k = 0; k < per_set; ++k) {
-                        const Hit hit = world.closest({p.origin, frame.world(cosine_direction(r2_point(k, offset)))});
+                    for (std::uint32_t k = 0; k < rays_of_set; ++k) {
+                        const glm::vec3 way = frame.world(cosine_direction(r2_point(k, offset)));
+                        const Hit hit = world.closest({p.origin, way});
                         if (hit.element == no_index) continue;
                         near += hit.t < p.reach;
+                        if (const std::uint32_t l = probes.luminaire_of_element[hit.element]; l != no_index) {
+                            const glm::uvec3& v = mesh.nodes[hit.element].vertices;
+                            const glm::vec3 n =
+                                glm::normalize(glm::cross(mesh.vertices[v.y].position - mesh.vertices[v.x].position,
+                                                          mesh.vertices[v.z].position - mesh.vertices[v.x].position));
+                            const double cos_receiver = glm::dot(way, p.normal), cos_emitter = -glm::dot(way, n);
+                            if (cos_receiver > 0 && cos_emitter > 0)
+                                d[l] += static_cast<float>(count_of_hit(double(hit.t) * hit.t, cos_receiver,
+                                                                        cos_emitter, direct.emitters()[l].area));
+                        }
                         const std::uint32_t end =
                             pick(locate(mesh, hit.element, hit.b1, hit.b2), buried, unit_float(hash(key, k)));
-                        if (end != no_index) probes.ends[std::size_t(i) * ErrorProbes::rays + set * per_set + k] = end;
+                        if (end != no_index)
+                            probes.ends[std::size_t(i) * ErrorProbes::rays + set * rays_of_set + k] = end;
                     }
                 }
                 p.near = static_cast<float>(near) / ErrorProbes::rays;

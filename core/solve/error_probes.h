@@ -5,8 +5,13 @@
 // of the radiosity equation at that point (an a posteriori estimate: Arvo, Torrance & Smits 1994, "A framework for the
 // analysis of error in global illumination algorithms"). Rays are traced once and kept, as the solver's are: asking
 // again after an edit costs no ray. Placed by geometry only, so that no edit of a lamp or a paint moves them.
+//
+// Direct light is gathered by both sets of rays, those to the luminaires and those of the hemisphere that meet one
+// (multiple importance sampling, balance heuristic: Veach & Guibas 1995): of a window's sky behind slats, a sliver is
+// seen, near and large, which dozens of shadow rays to all of the sky miss.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <vector>
@@ -17,7 +22,10 @@
 
 namespace lueur {
 
-inline constexpr std::uint32_t probe_count = 400; // that tell the error of a solution
+// That tell the error of a solution: more of them where there are many small surfaces to be wrong on.
+inline std::uint32_t probe_count(const Mesh& mesh) {
+    return std::clamp(static_cast<std::uint32_t>(mesh.elements.size() / 150), 400u, 800u);
+}
 
 struct ErrorProbes {
     struct Point {
@@ -32,6 +40,7 @@ struct ErrorProbes {
     static constexpr int rays = 512, shadow_rays = 48; // a point; shadow rays a luminaire
     static constexpr int sets = 4;                     // independent parts of both, which know their own spread
 
+    std::vector<std::uint32_t> luminaire_of_element; // of coarse elements; no_index: not of one
     std::vector<Point> points;
     std::vector<float> direct;       // points * sets * emitters: D
     std::vector<std::uint32_t> ends; // points * rays, set by set: the fine vertex each ray ends at; no_index: outside
@@ -41,8 +50,8 @@ struct ErrorProbes {
 
 // Chooses about `count` points on the mesh as it is now, half of them at vertices.
 void place_probes(const World& world, const Mesh& mesh, const DirectTransport& direct,
-                  const std::vector<std::uint8_t>& buried, std::uint32_t count, std::uint32_t seed,
-                  ErrorProbes& probes);
+                  const std::vector<std::uint8_t>& buried, std::vector<std::uint32_t> luminaire_of_element,
+                  std::uint32_t count, std::uint32_t seed, ErrorProbes& probes);
 
 // Traces them by one time slice; true at the end.
 bool trace_probes(const World& world, const Mesh& mesh, const DirectTransport& direct,

@@ -54,8 +54,10 @@ bool fill_rows(FormFactorMatrix& matrix, const PatchScene& patches, FormFactorMe
         tbb::parallel_for(cursor, last, [&](std::uint32_t i) {
             form_factor_row(patches, i, method, settings, {matrix.row(i), matrix.n}, costs[i - cursor]);
         });
-        for (const FormFactorCost& one : costs)
-            cost.cost += one.cost, cost.seconds += one.seconds, cost.warned += one.warned;
+        for (const FormFactorCost& one : costs) {
+            cost.cost += one.cost, cost.seconds += one.seconds;
+            cost.pairs += one.pairs, cost.warned += one.warned, cost.missed += one.missed;
+        }
         cursor = last;
         const auto now = std::chrono::steady_clock::now();
         if (std::chrono::duration<double>(now - start).count() > step_seconds) break;

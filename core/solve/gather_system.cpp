@@ -112,15 +112,27 @@ GatherSystem::GatherSystem(std::uint32_t vertices, int channels, std::vector<flo
     , h_(vertices, channels)
     , r_(vertices, channels) {}
 
-void GatherSystem::set_sources(const ChannelField& rho, const ChannelField& gathered) {
+void GatherSystem::set_right_side(const ChannelField& rho, const ChannelField& gathered) {
     rho_ = rho;
     for_each_vertex(n_, [&](std::uint32_t i) {
         for (int c = 0; c < channels_; ++c) b_[i][c] = rho_[i][c] * gathered[i][c];
     });
-    // The guess alpha x with the smallest |b - alpha A x|: one lamp dimmed or recoloured is then solved at once.
-    const auto ax = [&](std::uint32_t i, int c) { return double(x_[i][c]) - double(rho_[i][c]) * h_[i][c]; };
     b_norm2_ =
         weighted_sums(n_, channels_, weight_, [&](std::uint32_t i, int c) { return double(b_[i][c]) * b_[i][c]; });
+}
+
+void GatherSystem::set_sources(const ChannelField& rho, const ChannelField& gathered, ChannelField radiosity,
+                               ChannelField gathered_radiosity) {
+    set_right_side(rho, gathered);
+    x_ = std::move(radiosity);
+    h_ = std::move(gathered_radiosity);
+    refresh_residual();
+}
+
+void GatherSystem::set_sources(const ChannelField& rho, const ChannelField& gathered) {
+    set_right_side(rho, gathered);
+    // The guess alpha x with the smallest |b - alpha A x|: one lamp dimmed or recoloured is then solved at once.
+    const auto ax = [&](std::uint32_t i, int c) { return double(x_[i][c]) - double(rho_[i][c]) * h_[i][c]; };
     const Sums bax = weighted_sums(n_, channels_, weight_, [&](std::uint32_t i, int c) { return b_[i][c] * ax(i, c); });
     const Sums axax =
         weighted_sums(n_, channels_, weight_, [&](std::uint32_t i, int c) { return ax(i, c) * ax(i, c); });
@@ -133,6 +145,10 @@ void GatherSystem::set_sources(const ChannelField& rho, const ChannelField& gath
         for (int c = 0; c < channels_; ++c) x_[i][c] *= alpha[c], h_[i][c] *= alpha[c];
     });
     refresh_residual();
+}
+
+void GatherSystem::set_guess(ChannelField radiosity) {
+    x_ = std::move(radiosity);
 }
 
 void GatherSystem::set_rows(const std::vector<GatherPass>& passes) {

@@ -27,6 +27,9 @@ Hierarchy::Hierarchy(const Scene& scene, const World& world, const HierarchySett
     , direct_(std::move(direct))
     , emitters_(scene.luminaires.size())
     , tree_(make_element_tree(scene, settings.oracle == RefinementOracle::error)) {
+    tree_.nodes.reserve(room_for_nodes());
+    points_.reserve(room_for_nodes());
+    for (const ElementNode& n : tree_.nodes) leaves_ += n.is_leaf();
     for (std::uint32_t r = 0; r < tree_.root_count; ++r) total_area_ += double(tree_.nodes[r].area);
     if (!(settings_.smallest_area > 0)) settings_.smallest_area = static_cast<float>(total_area_ / 20000);
     if (settings_.oracle != RefinementOracle::error && tree_.root_count > most_lecture_roots) {
@@ -39,43 +42,85 @@ Hierarchy::Hierarchy(const Scene& scene, const World& world, const HierarchySett
 
 double Hierarchy::progress() const {
     if (phase_ == Phase::settled) return 1;
-    if (phase_ == Phase::refine && !work_.empty()) return double(work_cursor_) / double(work_.size());
+    if (phase_ == Phase::refine && !work_.empty()) return double(work_done_) / double(work_done_ + work_.size());
     if (phase_ == Phase::look && !tree_.nodes.empty()) return double(looked_) / double(tree_.nodes.size());
     return 0;
 }
 
-std::uint32_t Hierarchy::element_count() const {
-    return static_cast<std::uint32_t>(
-        std::count_if(tree_.nodes.begin(), tree_.nodes.end(), [](const ElementNode& n) { return n.is_leaf(); }));
+const char* Hierarchy::doing() const {
+    switch (phase_) {
+    case Phase::relight:
+        return "relight";
+    case Phase::look:
+        return "look";
+    case Phase::begin:
+        return "begin";
+    case Phase::refine:
+        return "refine";
+    case Phase::list:
+        return "list";
+    case Phase::sweep:
+        return "sweep";
+    case Phase::push:
+        return "push";
+    case Phase::pull:
+        return "pull";
+    case Phase::measure:
+        return "measure";
+    case Phase::settled:
+        return "settled";
+    case Phase::failed:
+        return "failed";
+    }
+    return "";
 }
 
-std::uint32_t Hierarchy::level_count() const {
-    std::uint32_t deepest = 0;
-    for (const ElementNode& n : tree_.nodes) deepest = std::max<std::uint32_t>(deepest, n.level);
-    return deepest;
+std::uint32_t Hierarchy::link_count() const {
+    const std::size_t count = phase_ == Phase::list ? listing_.links : (refining() ? kept_.size() : links_.size());
+    return static_cast<std::uint32_t>(count);
 }
 
 bool Hierarchy::step(const std::atomic<bool>& cancel) {
     TimeSlice slice(cancel);
-    while (phase_ != Phase::settled && phase_ != Phase::failed && !cancel.load(std::memory_order_relaxed)) {
+    // One sweep a step: what is shown between rounds, and read by the next, must not depend on the time.
+    const std::uint32_t sweeps = sweeps_;
+    const auto at_end = [this] { return phase_ == Phase::settled || phase_ == Phase::failed; };
+    while (!at_end() && sweeps_ == sweeps && !cancel.load(std::memory_order_relaxed)) {
         switch (phase_) {
+        case Phase::relight:
+            relight(slice);
+            break;
         case Phase::look:
             look_at_new_nodes(cancel);
+            break;
+        case Phase::begin:
+            begin_round(slice);
             break;
         case Phase::refine:
             refine_some();
             break;
+        case Phase::list:
+            list_links(slice);
+            break;
         case Phase::sweep:
-            // One a step: what is shown between rounds, and read by the next, must not depend on the time.
-            if (gather(cancel)) sweep();
-            return phase_ != Phase::settled && phase_ != Phase::failed;
+            if (gather(cancel)) start_pushing(false);
+            break;
+        case Phase::push:
+            push(slice);
+            break;
+        case Phase::pull:
+            pull(slice);
+            break;
+        case Phase::measure:
+            measure_errors(slice);
+            break;
         case Phase::settled:
         case Phase::failed:
             break;
         }
         if (slice.over()) break;
     }
-    return phase_ != Phase::settled && phase_ != Phase::failed;
+    return !at_end();
 }
 
 // Every node gets the points that stand for it, and its direct light.
@@ -93,18 +138,19 @@ void Hierarchy::look_at_new_nodes(const std::atomic<bool>& cancel) {
         }
     });
     if (!done) return;
-    if (first_time > 0 && !begun_) { // clusters: as much of them lives as of their roots
-        tree_.children_first([&](std::uint32_t n) {
-            ElementNode& node = tree_.nodes[n];
-            if (!node.is_cluster()) return;
-            const ElementNode &a = tree_.nodes[node.children[0]], &b = tree_.nodes[node.children[1]];
-            node.live_share = node.area > 0 ? std::min(1.0f, (a.live_area() + b.live_area()) / node.area) : 0;
-        });
-        begun_ = true;
-        push_and_pull(true);
-        begin_round();
-    }
     phase_ = Phase::refine;
+    if (first_time == 0 || begun_) return;
+    for (std::size_t i = tree_.nodes.size() - tree_.cluster_count; i < tree_.nodes.size(); ++i) {
+        // Of clusters as much lives as of their roots.
+        ElementNode& node = tree_.nodes[tree_.children_first(i)];
+        const ElementNode &a = tree_.nodes[node.children[0]], &b = tree_.nodes[node.children[1]];
+        node.live_share = node.area > 0 ? std::min(1.0f, (a.live_area() + b.live_area()) / node.area) : 0;
+    }
+    begun_ = true;
+    start_round();
+    resume_ = Phase::begin;
+    round_cursor_ = 0;
+    start_pushing(true);
 }
 
 void Hierarchy::light_node(std::uint32_t n) {
@@ -129,58 +175,67 @@ void Hierarchy::light_node(std::uint32_t n) {
     set_leaf_source(n);
 }
 
-// The first round links what there is: every pair of surfaces, or the cluster over all with itself. Later ones look at
-// all links again.
-void Hierarchy::begin_round() {
+void Hierarchy::start_round() {
     work_.clear();
     kept_.clear();
-    work_cursor_ = 0;
+    work_done_ = cursor_ = 0;
     cut_any_ = false;
     if (rounds_ == 0) {
         tolerance_ = final_tolerance_;
         if (settings_.oracle == RefinementOracle::error && settings_.tolerance == 0) tolerance_ = 0.02;
         if (settings_.oracle == RefinementOracle::flux) tolerance_ = coarsest * final_tolerance_;
-        if (settings_.oracle == RefinementOracle::error) {
-            if (tree_.top != no_index) work_.push_back({tree_.top, tree_.top});
-        } else {
-            for (std::uint32_t p = 0; p < tree_.root_count; ++p)
-                for (std::uint32_t q = p + 1; q < tree_.root_count; ++q) work_.push_back({p, q, true});
-        }
-    } else {
-        work_.reserve(links_.size());
-        for (const Link& link : links_)
+    }
+    phase_ = Phase::begin;
+}
+
+// The first round links what there is: every pair of surfaces, or the cluster over all with itself. Later ones look at
+// all links again.
+void Hierarchy::begin_round(TimeSlice& slice) {
+    if (rounds_ > 0) {
+        const auto look_again = [this](std::size_t l) {
+            const Link& link = links_[l];
             work_.push_back(
                 {link.receiver, link.source, false, true, {link.form_factor, link.spread, 0}, {}, Verdict::keep});
+        };
+        if (!run_slice(cursor_, links_.size(), nodes_a_look, slice, look_again)) return;
+    } else if (settings_.oracle == RefinementOracle::error) {
+        if (tree_.top != no_index) work_.push_back({tree_.top, tree_.top});
+    } else {
+        const auto link_pairs = [this](std::size_t p) {
+            for (auto q = static_cast<std::uint32_t>(p) + 1; q < tree_.root_count; ++q)
+                work_.push_back({static_cast<std::uint32_t>(p), q, true});
+        };
+        if (!run_slice(cursor_, tree_.root_count, 1, slice, link_pairs)) return;
     }
     ++rounds_;
     ++rounds_of_solve_;
+    phase_ = Phase::refine;
 }
 
 void Hierarchy::refine_some() {
-    if (work_cursor_ >= work_.size()) return end_round();
-    const std::size_t last = std::min(work_.size(), work_cursor_ + batch);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(work_cursor_, last, 16),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                          for (std::size_t w = range.begin(); w < range.end(); ++w) judge(work_[w]);
-                      });
-    for (std::size_t w = work_cursor_; w < last; ++w) {
+    if (work_.empty()) return start_listing();
+    const std::size_t count = std::min(work_.size(), batch);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 16), [&](const tbb::blocked_range<std::size_t>& range) {
+        for (std::size_t w = range.begin(); w < range.end(); ++w) judge(work_[w]);
+    });
+    for (std::size_t w = 0; w < count; ++w) {
         const Work work = work_[w]; // apply() grows the list
         rays_ += work.there.rays + work.back.rays;
         apply(work);
     }
-    work_cursor_ = last;
-    // What is done needs no place: a large scene looks at millions.
-    if (work_cursor_ > 1'000'000) {
-        work_.erase(work_.begin(), work_.begin() + static_cast<std::ptrdiff_t>(work_cursor_));
-        work_cursor_ = 0;
-    }
+    work_.erase(work_.begin(), work_.begin() + static_cast<std::ptrdiff_t>(count));
+    work_done_ += count;
     if (looked_ < tree_.nodes.size()) phase_ = Phase::look;
 }
 
 void Hierarchy::judge(Work& work) const {
-    const LinkKernel kernel = settings_.oracle == RefinementOracle::error ? LinkKernel::polygon : LinkKernel::disks;
     const auto estimate = [&](std::uint32_t receiver, std::uint32_t source) {
-        return estimate_link(world_, tree_, points_, receiver, source, kernel);
+        // The lecture's disks lose a tenth of what walls exchange at their common edge: what touches gets the exact
+        // formula from its points.
+        const ElementNode &r = tree_.nodes[receiver], &s = tree_.nodes[source];
+        const bool touch = glm::distance(r.centre, s.centre) < r.radius + s.radius;
+        const bool disks = settings_.oracle != RefinementOracle::error && !touch;
+        return estimate_link(world_, tree_, points_, receiver, source, disks ? LinkKernel::disks : LinkKernel::polygon);
     };
     if (work.receiver != work.source && !can_face(tree_, work.receiver, work.source)) {
         work.verdict = Verdict::drop;
@@ -271,7 +326,7 @@ void Hierarchy::apply(const Work& work) {
     case Verdict::keep:
         link(work.receiver, work.source, work.there);
         if (work.pair) link(work.source, work.receiver, work.back);
-        if (kept_.size() + (work_.size() - work_cursor_) >= settings_.most_links) limited_ = true;
+        if (kept_.size() + work_.size() >= settings_.most_links) limited_ = true;
         return;
     case Verdict::cut_receiver:
     case Verdict::cut_source: {
@@ -298,6 +353,9 @@ void Hierarchy::apply(const Work& work) {
 void Hierarchy::cut(std::uint32_t node) {
     if (!tree_.nodes[node].is_leaf()) return;
     cut_element(tree_, node);
+    --leaves_;
+    for (const std::uint32_t child : tree_.nodes[node].children)
+        if (child != no_index) ++leaves_, levels_ = std::max<std::uint32_t>(levels_, tree_.nodes[child].level);
     if (tree_.nodes.size() >= settings_.most_elements) limited_ = true;
 }
 

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <atomic>
+#include <deque>
 #include <functional>
 #include <optional>
 #include <span>
@@ -21,6 +22,7 @@
 #include "core/scene/scene.h"
 #include "core/solve/channel_field.h"
 #include "core/solve/hierarchy_links.h"
+#include "core/transport/time_slice.h"
 
 namespace lueur {
 
@@ -73,13 +75,16 @@ public:
         return {links_.data() + first_link_[node], links_.data() + first_link_[node + 1]};
     }
     const NodePoints& points_of(std::uint32_t node) const { return points_[node]; }
-    std::uint32_t link_count() const { return static_cast<std::uint32_t>(refining() ? kept_.size() : links_.size()); }
-    std::uint32_t element_count() const; // leaves
-    std::uint32_t level_count() const;   // cuts of the most finely cut surface
+    std::uint32_t link_count() const; // while refining: so far
+    std::uint32_t element_count() const { return leaves_; }
+    std::uint32_t level_count() const { return levels_; } // cuts of the most finely cut surface
     std::uint32_t sweeps() const { return sweeps_; }
     std::uint32_t rounds() const { return rounds_; } // of refinement
     std::uint64_t rays() const { return rays_; }
-    bool refining() const { return phase_ == Phase::look || phase_ == Phase::refine; }
+    const char* doing() const; // a word for the phase
+    bool refining() const {    // links are being made
+        return phase_ == Phase::look || phase_ == Phase::begin || phase_ == Phase::refine || phase_ == Phase::list;
+    }
     bool settled() const { return phase_ == Phase::settled; }
     double progress() const;                                    // of the round
     double residual() const { return residual_; }               // change of B in the last sweep / B, worst channel
@@ -101,7 +106,9 @@ public:
     float error_at(std::uint32_t leaf) const { return leaf_error_[leaf]; } // weighted irradiance
 
 private:
-    enum class Phase { look, refine, sweep, settled, failed };
+    // A round: its links are begun with, looked at and cut (new nodes looked at), listed by receiver; then sweeps, each
+    // gathers, pushes and pulls; what the links' errors come to is measured. relight: sources are new.
+    enum class Phase { relight, look, begin, refine, list, sweep, push, pull, measure, settled, failed };
     enum class Verdict : std::uint8_t { drop, keep, cut_receiver, cut_source };
     struct Work { // a link to be looked at, or (pair) two nodes that may be linked both ways
         std::uint32_t receiver, source;
@@ -110,7 +117,10 @@ private:
         Verdict verdict = Verdict::keep;
     };
 
-    void begin_round();
+    static constexpr std::size_t nodes_a_look = 64; // at the clock
+
+    void start_round();
+    void begin_round(TimeSlice& slice);
     void look_at_new_nodes(const std::atomic<bool>& cancel);
     void light_node(std::uint32_t node);
     void refine_some();
@@ -122,18 +132,28 @@ private:
     bool can_cut(std::uint32_t node) const;
     void apply(const Work& work);
     void cut(std::uint32_t node);
-    void end_round();
+    void start_listing();
+    void list_links(TimeSlice& slice);
+    void add_to_row(std::uint32_t node);
     bool gather(const std::atomic<bool>& cancel); // a slice of it; true at the end
-    void sweep();
+    std::size_t room_for_nodes() const;           // that there may be in the end
     void resize_values();
     void set_leaf_source(std::uint32_t leaf);
-    void push_and_pull(bool sources_only);
+    void relight(TimeSlice& slice);
+    void start_pushing(bool sources_only);
+    void push(TimeSlice& slice);
+    void push_to(std::uint32_t node);
+    void pull(TimeSlice& slice);
+    void pull_to(std::uint32_t node);
+    void end_sweep();
     void extrapolate(const std::vector<double>& change, const std::vector<double>& alignment);
-    void measure_errors();
-    void sum_rows();
+    void measure_errors(TimeSlice& slice);
+    void measure_node(std::uint32_t node);
+    void end_measuring();
+    double settled_residual() const;
     float bright(const float* channels) const;
     double contrast(std::uint32_t receiver, std::uint32_t source) const;
-    bool is_next_tolerance_finer();
+    bool is_next_tolerance_finer() const;
 
     const World& world_;
     HierarchySettings settings_;
@@ -148,10 +168,28 @@ private:
     Phase phase_ = Phase::look;
     std::string failure_;
     std::uint32_t looked_ = 0; // nodes that have points
-    std::vector<Work> work_;
-    std::size_t work_cursor_ = 0;
+    std::uint32_t leaves_ = 0, levels_ = 0;
+    std::deque<Work> work_;     // what is done is taken off; millions may come, and none is moved
+    std::size_t work_done_ = 0; // in this round
     std::uint32_t gather_cursor_ = 0;
-    std::vector<Link> links_, kept_;
+    std::size_t cursor_ = 0;       // of begin, relight, push, pull or measure, whichever goes on
+    Phase resume_ = Phase::sweep;  // after new sources,
+    std::size_t round_cursor_ = 0; // there
+    std::vector<Link> links_;
+    std::deque<Link> kept_; // of this round so far
+    struct Listing {
+        std::size_t links = 0, counted = 0, placed = 0, summed = 0;
+        std::vector<std::uint32_t> next; // place in links_, of each node
+    } listing_;
+    struct Pushing {
+        bool sources_only = false;
+        std::vector<double> change, norm, along, before; // of B, by channel
+        double light = 0, area = 0;
+    } pushing_;
+    struct Measuring {
+        std::vector<float> square, sum; // of the links' errors, of nodes
+        double errors = 0, bounds = 0, light = 0, mean = 0;
+    } measuring_;
     std::vector<std::uint32_t> first_link_; // of each node in links_, one more than nodes
     bool cut_any_ = false, limited_ = false, begun_ = false;
     double tolerance_ = 0, final_tolerance_ = 0;

@@ -116,21 +116,19 @@ void FinalGather::look_from(const World& world, const Hierarchy& hierarchy, std:
     rays_.fetch_add(rays, std::memory_order_relaxed);
 }
 
-ChannelField FinalGather::irradiance(const Hierarchy& hierarchy, int channels) const {
-    ChannelField h(vertices_, channels);
+bool FinalGather::gather(const Hierarchy& hierarchy, const std::atomic<bool>& cancel, std::uint32_t& cursor,
+                         ChannelField& irradiance) const {
     const ChannelField& b = hierarchy.radiosity();
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, vertices_, 64),
-                      [&](const tbb::blocked_range<std::uint32_t>& range) {
-                          for (std::uint32_t v = range.begin(); v < range.end(); ++v) {
-                              float* out = h[v];
-                              for (std::size_t l = first_[v]; l < first_[v + 1]; ++l) {
-                                  const float f = factor_[l] * scale_[v];
-                                  const float* from = b[source_[l]];
-                                  for (int c = 0; c < h.stride; ++c) out[c] += f * from[c];
-                              }
-                          }
-                      });
-    return h;
+    return run_slice(cursor, vertices_, 16, cancel, [&](std::uint32_t first, std::uint32_t last) {
+        for (std::uint32_t v = first; v < last; ++v) {
+            float* out = irradiance[v];
+            for (std::size_t l = first_[v]; l < first_[v + 1]; ++l) {
+                const float f = factor_[l] * scale_[v];
+                const float* from = b[source_[l]];
+                for (int c = 0; c < irradiance.stride; ++c) out[c] += f * from[c];
+            }
+        }
+    });
 }
 
 } // namespace lueur

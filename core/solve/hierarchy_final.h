@@ -37,7 +37,10 @@ public:
     double progress() const { return vertices_ > 0 ? double(cursor_) / vertices_ : 1; }
     std::uint64_t rays() const { return rays_.load(); }
 
-    ChannelField irradiance(const Hierarchy& hierarchy, int channels) const;
+    // At the vertices from `cursor` on, by one time slice, into `irradiance`, which has a row for each; true at the
+    // end.
+    bool gather(const Hierarchy& hierarchy, const std::atomic<bool>& cancel, std::uint32_t& cursor,
+                ChannelField& irradiance) const;
 
 private:
     void look_from(const World& world, const Hierarchy& hierarchy, std::uint32_t vertex);

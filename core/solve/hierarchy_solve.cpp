@@ -21,8 +21,10 @@ constexpr std::uint32_t most_round_sweeps = 3000;
 constexpr std::uint32_t most_rounds = 20;
 constexpr std::uint32_t most_growing = 20; // sweeps in a row whose residual grows: the rows have too much energy
 
-void grow(ChannelField& field, std::uint32_t count, int channels) {
+// room: for so many in the end. To move what is there takes longer than a step may.
+void grow(ChannelField& field, std::uint32_t count, std::size_t room, int channels) {
     if (field.values.empty()) field = ChannelField(count, channels);
+    field.values.reserve(room * static_cast<std::size_t>(field.stride));
     field.count = count;
     field.values.resize(std::size_t(count) * static_cast<std::size_t>(field.stride), 0.0f);
 }
@@ -49,10 +51,15 @@ double tolerance_for(RefinementOracle oracle, double target_error) {
     return 0;
 }
 
+std::size_t Hierarchy::room_for_nodes() const {
+    return std::max(tree_.nodes.size(), std::min<std::size_t>(settings_.most_elements, 4 * tree_.root_count));
+}
+
 void Hierarchy::resize_values() {
     const std::uint32_t count = static_cast<std::uint32_t>(tree_.nodes.size());
     const std::uint32_t before = total_.count;
-    for (ChannelField* field : {&source_, &gathered_, &total_, &b_}) grow(*field, count, channels_);
+    const std::size_t room = room_for_nodes();
+    for (ChannelField* field : {&source_, &gathered_, &total_, &b_}) grow(*field, count, room, channels_);
     for (auto* values :
          {&scale_, &row_sum_, &leaf_error_, &brightness_, &brightness_spread_, &direct_brightness_, &arriving_})
         values->resize(count, 0);
@@ -156,24 +163,55 @@ void Hierarchy::set_sources(HierarchySources sources) {
         phase_ = Phase::look;
         return;
     }
-    for (std::uint32_t n = 0; n < tree_.nodes.size(); ++n)
-        if (!tree_.nodes[n].is_cluster()) set_leaf_source(n);
-    push_and_pull(true);
-    if (phase_ == Phase::sweep || phase_ == Phase::settled || phase_ == Phase::failed) phase_ = Phase::sweep;
+    // A round in the making goes on where it was.
+    const bool lights_anew =
+        phase_ == Phase::relight || (pushing_.sources_only && (phase_ == Phase::push || phase_ == Phase::pull));
+    if (!lights_anew) {
+        resume_ = refining() ? phase_ : Phase::sweep;
+        round_cursor_ = cursor_;
+    }
+    cursor_ = 0;
+    phase_ = Phase::relight;
+}
+
+void Hierarchy::relight(TimeSlice& slice) {
+    const auto light = [this](std::size_t n) {
+        if (!tree_.nodes[n].is_cluster()) set_leaf_source(static_cast<std::uint32_t>(n));
+    };
+    if (run_slice(cursor_, tree_.nodes.size(), nodes_a_look, slice, light)) start_pushing(true);
+}
+
+void Hierarchy::start_listing() {
+    first_link_.assign(tree_.nodes.size() + 1, 0);
+    listing_ = {};
+    listing_.links = kept_.size();
+    links_.clear();
+    links_.reserve(kept_.size());
+    rows_above_one_ = 0;
+    phase_ = Phase::list;
 }
 
 // Links by receiver, and what their form factors sum to.
-void Hierarchy::end_round() {
+void Hierarchy::list_links(TimeSlice& slice) {
+    constexpr std::size_t links_a_look = 4096;
     const std::size_t nodes = tree_.nodes.size();
-    first_link_.assign(nodes + 1, 0);
-    for (const Link& link : kept_) ++first_link_[link.receiver + 1];
-    for (std::size_t n = 0; n < nodes; ++n) first_link_[n + 1] += first_link_[n];
-    links_.resize(kept_.size());
-    std::vector<std::uint32_t> next(first_link_.begin(), first_link_.end() - 1);
-    for (const Link& link : kept_) links_[next[link.receiver]++] = link;
-    kept_.clear();
-    work_.clear();
-    sum_rows();
+    Listing& l = listing_;
+    const auto count = [&](std::size_t k) {
+        ++first_link_[kept_[k].receiver + 1];
+        links_.push_back({}); // bit by bit: so much fresh memory at once takes longer than a step may
+    };
+    if (!run_slice(l.counted, l.links, links_a_look, slice, count)) return;
+    if (l.next.empty()) {
+        for (std::size_t n = 0; n < nodes; ++n) first_link_[n + 1] += first_link_[n];
+        l.next.assign(first_link_.begin(), first_link_.end());
+    }
+    const auto place = [&](std::size_t) {
+        links_[l.next[kept_.front().receiver]++] = kept_.front();
+        kept_.pop_front();
+    };
+    if (!run_slice(l.placed, l.links, links_a_look, slice, place)) return;
+    const auto sum = [&](std::size_t i) { add_to_row(tree_.parents_first(i)); };
+    if (!run_slice(l.summed, nodes, nodes_a_look, slice, sum)) return;
     sweeps_of_round_ = growing_ = 0;
     residual_ = last_residual_ = 1;
     std::fill(extrapolation_.begin(), extrapolation_.end(), 0.0f);
@@ -184,19 +222,16 @@ void Hierarchy::end_round() {
 // A row sums to what stays in the scene, never to more than 1: disks that touch, or two faces in one plane, would send
 // more than there is, and with a reflectance near 1 no sweep would converge. With `error` what looks at lit surfaces
 // only gets exactly what they send: a row of 1.
-void Hierarchy::sum_rows() {
+void Hierarchy::add_to_row(std::uint32_t n) {
     constexpr float rounding = 1e-4f;
-    rows_above_one_ = 0;
-    tree_.parents_first([&](std::uint32_t n) {
-        const ElementNode& node = tree_.nodes[n];
-        float sum = node.parent == no_index ? 0 : row_sum_[node.parent];
-        for (std::uint32_t l = first_link_[n]; l < first_link_[n + 1]; ++l) sum += links_[l].form_factor;
-        row_sum_[n] = sum;
-        scale_[n] = 1;
-        if (!(sum > 0)) return;
-        if (sum > 1 || (node.closed && settings_.oracle == RefinementOracle::error)) scale_[n] = 1 / sum;
-        if (node.is_leaf() && !node.is_cluster()) rows_above_one_ += sum > 1 + rounding;
-    });
+    const ElementNode& node = tree_.nodes[n];
+    float sum = node.parent == no_index ? 0 : row_sum_[node.parent];
+    for (std::uint32_t l = first_link_[n]; l < first_link_[n + 1]; ++l) sum += links_[l].form_factor;
+    row_sum_[n] = sum;
+    scale_[n] = 1;
+    if (!(sum > 0)) return;
+    if (sum > 1 || (node.closed && settings_.oracle == RefinementOracle::error)) scale_[n] = 1 / sum;
+    if (node.is_leaf() && !node.is_cluster()) rows_above_one_ += sum > 1 + rounding;
 }
 
 // H_r = sum F_rs B_s over the links of each node (correction 39).
@@ -215,75 +250,68 @@ bool Hierarchy::gather(const std::atomic<bool>& cancel) {
     });
 }
 
-// When all has been gathered: push and pull, and what comes next.
-void Hierarchy::sweep() {
-    gather_cursor_ = 0;
-    push_and_pull(false);
-    ++sweeps_;
-    ++sweeps_of_round_;
-    growing_ = residual_ > last_residual_ ? growing_ + 1 : 0;
-    last_residual_ = residual_;
-    if (!std::isfinite(residual_) || growing_ > most_growing || sweeps_of_round_ > most_round_sweeps) {
-        failure_ = "hierarchical radiosity does not converge on this scene: its rows reflect as much as they receive";
-        phase_ = Phase::failed;
-        return;
-    }
-    const double settled_residual = std::max(least_residual, settled_share * (1 - mean_rho_));
-    const bool last_round = limited_ || !is_next_tolerance_finer();
-    if (residual_ > (last_round ? settled_residual : std::max(coarse_residual * (1 - mean_rho_), settled_residual)))
-        return;
-    measure_errors();
-    if (limited_ || rounds_of_solve_ >= most_rounds) {
-        phase_ = residual_ <= settled_residual ? Phase::settled : Phase::sweep;
-        return;
-    }
-    const bool good = settings_.oracle == RefinementOracle::error && settings_.tolerance == 0 &&
-                      links_error_ <= settings_.target_error; // what the sweeps leave is swept away
-    if (good || (last_round && !cut_any_) || (settings_.oracle == RefinementOracle::form_factor)) {
-        phase_ = residual_ <= settled_residual ? Phase::settled : Phase::sweep;
-        return;
-    }
-    if (!last_round) tolerance_ = std::max(final_tolerance_, tolerance_ / 2);
-    begin_round();
-    phase_ = Phase::refine;
+double Hierarchy::settled_residual() const {
+    return std::max(least_residual, settled_share * (1 - mean_rho_));
 }
 
-bool Hierarchy::is_next_tolerance_finer() {
+bool Hierarchy::is_next_tolerance_finer() const {
     return settings_.oracle != RefinementOracle::form_factor && tolerance_ > final_tolerance_ * 1.0001;
 }
 
-// Irradiance, not radiosity, goes down (correction 41): children may have paints of their own.
-void Hierarchy::push_and_pull(bool sources_only) {
-    std::vector<double> change(static_cast<std::size_t>(channels_), 0), norm = change, along = change, before = change;
-    grow(step_before_, static_cast<std::uint32_t>(tree_.nodes.size()), channels_);
-    double light = 0, area = 0;
-    tree_.parents_first([&](std::uint32_t n) {
-        const ElementNode& node = tree_.nodes[n];
-        if (!sources_only) {
-            const float* from = node.parent == no_index ? nullptr : total_[node.parent];
-            for (int c = 0; c < channels_; ++c) total_[n][c] = gathered_[n][c] + (from ? from[c] : 0);
-        }
-        if (!node.is_leaf() || node.is_cluster()) return;
-        const auto& rho = sources_.material_rho[sources_.surface_material[node.surface]];
-        const bool buried = points_[n].count == 0;
-        for (int c = 0; c < channels_; ++c) {
-            const auto k = static_cast<std::size_t>(c);
-            const float b = buried ? 0 : source_[n][c] + static_cast<float>(rho[k]) * total_[n][c] * scale_[n];
-            const float step = b - b_[n][c];
-            // A lamp's own exitance may be a million times what its light leaves elsewhere: it does not change.
-            const float sent_on = direct_ ? b : b - (buried ? 0 : source_[n][c]);
-            change[k] += double(node.live_area()) * double(step) * double(step);
-            norm[k] += double(node.live_area()) * double(sent_on) * double(sent_on);
-            along[k] += double(node.live_area()) * double(step) * double(step_before_[n][c]);
-            before[k] += double(node.live_area()) * double(step_before_[n][c]) * double(step_before_[n][c]);
-            step_before_[n][c] = step;
-            b_[n][c] = extrapolation_[k] != 0 ? std::max(0.0f, b + extrapolation_[k] * step) : b;
-        }
-        brightness_[n] = bright(b_[n]);
-        arriving_[n] = buried ? 0 : bright(total_[n]) * scale_[n];
-        light += double(node.live_area()) * (double(arriving_[n]) + double(direct_brightness_[n]));
-        area += double(node.live_area());
-    });
+// When all has been gathered, pushed and pulled: what comes next. A sweep counts when it is through with.
+void Hierarchy::end_sweep() {
+    ++sweeps_of_round_;
+    growing_ = residual_ > last_residual_ ? growing_ + 1 : 0;
+    last_residual_ = residual_;
+    phase_ = Phase::sweep;
+    if (!std::isfinite(residual_) || growing_ > most_growing || sweeps_of_round_ > most_round_sweeps) {
+        failure_ = "hierarchical radiosity does not converge on this scene: its rows reflect as much as they receive";
+        phase_ = Phase::failed;
+        ++sweeps_;
+        return;
+    }
+    const bool last_round = limited_ || !is_next_tolerance_finer();
+    const double enough = settled_residual();
+    if (residual_ > (last_round ? enough : std::max(coarse_residual * (1 - mean_rho_), enough))) {
+        ++sweeps_;
+        return;
+    }
+    measuring_ = {};
+    measuring_.square.assign(tree_.nodes.size(), 0);
+    measuring_.sum = measuring_.square;
+    cursor_ = 0;
+    phase_ = Phase::measure;
+}
+
+void Hierarchy::end_measuring() {
+    ++sweeps_;
+    const bool last_round = limited_ || !is_next_tolerance_finer();
+    const bool good = settings_.oracle == RefinementOracle::error && settings_.tolerance == 0 &&
+                      links_error_ <= settings_.target_error; // what the sweeps leave is swept away
+    if (limited_ || rounds_of_solve_ >= most_rounds || good || (last_round && !cut_any_) ||
+        settings_.oracle == RefinementOracle::form_factor) {
+        phase_ = residual_ <= settled_residual() ? Phase::settled : Phase::sweep;
+        return;
+    }
+    if (!last_round) tolerance_ = std::max(final_tolerance_, tolerance_ / 2);
+    start_round();
+}
+
+void Hierarchy::start_pushing(bool sources_only) {
+    pushing_ = {};
+    pushing_.sources_only = sources_only;
+    pushing_.change.assign(static_cast<std::size_t>(channels_), 0);
+    pushing_.norm = pushing_.along = pushing_.before = pushing_.change;
+    grow(step_before_, static_cast<std::uint32_t>(tree_.nodes.size()), room_for_nodes(), channels_);
+    gather_cursor_ = 0;
+    cursor_ = 0;
+    phase_ = Phase::push;
+}
+
+void Hierarchy::push(TimeSlice& slice) {
+    const auto push_next = [this](std::size_t i) { push_to(tree_.parents_first(i)); };
+    if (!run_slice(cursor_, tree_.nodes.size(), nodes_a_look, slice, push_next)) return;
+    auto& [sources_only, change, norm, along, before, light, area] = pushing_;
     mean_irradiance_ = area > 0 ? light / area : 0;
     residual_ = 0;
     for (std::size_t c = 0; c < change.size(); ++c) {
@@ -292,28 +320,69 @@ void Hierarchy::push_and_pull(bool sources_only) {
         if (!(change[c] <= residual_)) residual_ = change[c]; // and where it is not a number
     }
     if (!sources_only) extrapolate(change, along);
-    tree_.children_first([&](std::uint32_t n) {
-        const ElementNode& node = tree_.nodes[n];
-        if (node.is_leaf()) return;
-        double whole = 0;
-        for (const std::uint32_t child : node.children)
-            if (child != no_index) whole += double(tree_.nodes[child].live_area());
-        float* b = b_[n];
-        std::fill_n(b, b_.stride, 0.0f);
-        brightness_[n] = arriving_[n] = 0;
-        double square = 0;
-        for (const std::uint32_t child : node.children) {
-            if (child == no_index || !(whole > 0)) continue;
-            const float share = static_cast<float>(double(tree_.nodes[child].live_area()) / whole);
-            for (int c = 0; c < channels_; ++c) b[c] += share * b_[child][c];
-            brightness_[n] += share * brightness_[child];
-            arriving_[n] += share * arriving_[child];
-            square += double(share) * (double(brightness_spread_[child]) * brightness_spread_[child] +
-                                       double(brightness_[child]) * brightness_[child]);
-        }
-        brightness_spread_[n] =
-            static_cast<float>(std::sqrt(std::max(0.0, square - double(brightness_[n]) * brightness_[n])));
-    });
+    cursor_ = 0;
+    phase_ = Phase::pull;
+}
+
+void Hierarchy::pull(TimeSlice& slice) {
+    const auto pull_next = [this](std::size_t i) { pull_to(tree_.children_first(i)); };
+    if (!run_slice(cursor_, tree_.nodes.size(), nodes_a_look, slice, pull_next)) return;
+    if (!pushing_.sources_only) return end_sweep();
+    cursor_ = round_cursor_;
+    phase_ = resume_;
+}
+
+// Irradiance, not radiosity, goes down (correction 41): children may have paints of their own.
+void Hierarchy::push_to(std::uint32_t n) {
+    auto& [sources_only, change, norm, along, before, light, area] = pushing_;
+    const ElementNode& node = tree_.nodes[n];
+    if (!sources_only) {
+        const float* from = node.parent == no_index ? nullptr : total_[node.parent];
+        for (int c = 0; c < channels_; ++c) total_[n][c] = gathered_[n][c] + (from ? from[c] : 0);
+    }
+    if (!node.is_leaf() || node.is_cluster()) return;
+    const auto& rho = sources_.material_rho[sources_.surface_material[node.surface]];
+    const bool buried = points_[n].count == 0;
+    for (int c = 0; c < channels_; ++c) {
+        const auto k = static_cast<std::size_t>(c);
+        const float b = buried ? 0 : source_[n][c] + static_cast<float>(rho[k]) * total_[n][c] * scale_[n];
+        const float step = b - b_[n][c];
+        // A lamp's own exitance may be a million times what its light leaves elsewhere: it does not change.
+        const float sent_on = direct_ ? b : b - (buried ? 0 : source_[n][c]);
+        change[k] += double(node.live_area()) * double(step) * double(step);
+        norm[k] += double(node.live_area()) * double(sent_on) * double(sent_on);
+        along[k] += double(node.live_area()) * double(step) * double(step_before_[n][c]);
+        before[k] += double(node.live_area()) * double(step_before_[n][c]) * double(step_before_[n][c]);
+        step_before_[n][c] = step;
+        b_[n][c] = extrapolation_[k] != 0 ? std::max(0.0f, b + extrapolation_[k] * step) : b;
+    }
+    brightness_[n] = bright(b_[n]);
+    arriving_[n] = buried ? 0 : bright(total_[n]) * scale_[n];
+    light += double(node.live_area()) * (double(arriving_[n]) + double(direct_brightness_[n]));
+    area += double(node.live_area());
+}
+
+void Hierarchy::pull_to(std::uint32_t n) {
+    const ElementNode& node = tree_.nodes[n];
+    if (node.is_leaf()) return;
+    double whole = 0;
+    for (const std::uint32_t child : node.children)
+        if (child != no_index) whole += double(tree_.nodes[child].live_area());
+    float* b = b_[n];
+    std::fill_n(b, b_.stride, 0.0f);
+    brightness_[n] = arriving_[n] = 0;
+    double square = 0;
+    for (const std::uint32_t child : node.children) {
+        if (child == no_index || !(whole > 0)) continue;
+        const float share = static_cast<float>(double(tree_.nodes[child].live_area()) / whole);
+        for (int c = 0; c < channels_; ++c) b[c] += share * b_[child][c];
+        brightness_[n] += share * brightness_[child];
+        arriving_[n] += share * arriving_[child];
+        square += double(share) * (double(brightness_spread_[child]) * brightness_spread_[child] +
+                                   double(brightness_[child]) * brightness_[child]);
+    }
+    brightness_spread_[n] =
+        static_cast<float>(std::sqrt(std::max(0.0, square - double(brightness_[n]) * brightness_[n])));
 }
 
 // Sweeps by Jacobi approach the end along one direction, by the same ratio each; once the ratio stands, the rest of the
@@ -339,31 +408,35 @@ void Hierarchy::extrapolate(const std::vector<double>& change, const std::vector
     }
 }
 
-void Hierarchy::measure_errors() {
-    std::vector<float> square(tree_.nodes.size(), 0), sum(tree_.nodes.size(), 0);
-    double errors = 0, bounds = 0, light = 0, mean = 0;
-    tree_.parents_first([&](std::uint32_t n) {
-        const ElementNode& node = tree_.nodes[n];
-        if (node.parent != no_index) square[n] = square[node.parent], sum[n] = sum[node.parent];
-        for (std::uint32_t l = first_link_[n]; l < first_link_[n + 1]; ++l) {
-            const Link& link = links_[l];
-            const float e = static_cast<float>(contrast(n, link.source)) * link.spread +
-                            link.form_factor * brightness_spread_[link.source];
-            square[n] += e * e, sum[n] += e;
-        }
-        if (!node.is_leaf() || node.is_cluster()) return;
-        leaf_error_[n] = std::sqrt(square[n]);
-        const double h = double(bright(total_[n])) * double(scale_[n]) + double(direct_brightness_[n]);
-        const double area = double(node.live_area());
-        errors += area * double(square[n]);
-        bounds += area * double(sum[n]);
-        light += area * h * h;
-        mean += area * h;
-    });
+void Hierarchy::measure_node(std::uint32_t n) {
+    auto& [square, sum, errors, bounds, light, mean] = measuring_;
+    const ElementNode& node = tree_.nodes[n];
+    if (node.parent != no_index) square[n] = square[node.parent], sum[n] = sum[node.parent];
+    for (std::uint32_t l = first_link_[n]; l < first_link_[n + 1]; ++l) {
+        const Link& link = links_[l];
+        const float e = static_cast<float>(contrast(n, link.source)) * link.spread +
+                        link.form_factor * brightness_spread_[link.source];
+        square[n] += e * e, sum[n] += e;
+    }
+    if (!node.is_leaf() || node.is_cluster()) return;
+    leaf_error_[n] = std::sqrt(square[n]);
+    const double h = double(bright(total_[n])) * double(scale_[n]) + double(direct_brightness_[n]);
+    const double area = double(node.live_area());
+    errors += area * double(square[n]);
+    bounds += area * double(sum[n]);
+    light += area * h * h;
+    mean += area * h;
+}
+
+void Hierarchy::measure_errors(TimeSlice& slice) {
+    const auto measure_next = [this](std::size_t i) { measure_node(tree_.parents_first(i)); };
+    if (!run_slice(cursor_, tree_.nodes.size(), nodes_a_look, slice, measure_next)) return;
+    const auto& [square, sum, errors, bounds, light, mean] = measuring_;
     const double absorbed = std::max(least_absorbed, 1 - mean_rho_);
     links_error_ = light > 0 ? std::sqrt(errors / light) : 0;
     estimated_error_ = std::min(1.0, links_error_ + residual_ / absorbed);
     error_bound_ = mean > 0 ? bounds / mean / absorbed + residual_ / absorbed : 0;
+    end_measuring();
 }
 
 } // namespace lueur

@@ -49,19 +49,13 @@ struct ElementTree {
     std::vector<double> root_area_before; // running sum of areas in that order, one more than roots
     std::unordered_map<std::uint64_t, std::uint32_t> edge_middle; // of an edge between two vertices
 
-    // Calls f(node) for all nodes, parents first.
-    template <typename F>
-    void parents_first(const F& f) const {
-        for (std::uint32_t n = root_count; n < root_count + cluster_count; ++n) f(n);
-        for (std::uint32_t n = 0; n < root_count; ++n) f(n);
-        for (std::uint32_t n = root_count + cluster_count; n < nodes.size(); ++n) f(n);
+    // Node i of all, parents before their children: clusters, roots, what those were cut into.
+    std::uint32_t parents_first(std::size_t i) const {
+        const auto n = static_cast<std::uint32_t>(i);
+        if (n < cluster_count) return root_count + n;
+        return n < root_count + cluster_count ? n - cluster_count : n;
     }
-    template <typename F>
-    void children_first(const F& f) const {
-        for (std::uint32_t n = static_cast<std::uint32_t>(nodes.size()); n-- > root_count + cluster_count;) f(n);
-        for (std::uint32_t n = root_count; n-- > 0;) f(n);
-        for (std::uint32_t n = root_count + cluster_count; n-- > root_count;) f(n);
-    }
+    std::uint32_t children_first(std::size_t i) const { return parents_first(nodes.size() - 1 - i); }
 };
 
 ElementTree make_element_tree(const Scene& scene, bool clusters);

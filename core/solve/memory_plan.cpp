@@ -54,11 +54,14 @@ MemoryPlan plan_memory(const Scene& scene, int channels) {
         elements += parts * (two_sided ? 2 : 1);
         vertices += (parts - 1) / 2 * (two_sided ? 2 : 1) + (two_sided ? 0.5 : 0);
     }
-    const double groups = count_light_samples(scene, static_cast<float>(sample_cell * size), most_samples);
-    const double samples = cut_groups * groups + std::max(0.0, vertices - double(geometry.vertices.size()));
-    const double lit = std::min<double>(samples, most_samples);
+    const bool sampled = is_sampled(static_cast<std::uint64_t>(vertices));
+    const double groups = count_light_samples(scene, static_cast<float>(receiver_cell * size), most_samples);
+    const double apart = std::max(0.0, vertices - double(geometry.vertices.size())); // of refined walls
+    const double gathering =
+        sampled ? std::min<double>(cut_groups * groups + apart, most_samples) : std::min(groups + apart, vertices);
+    const double lit = sampled ? gathering : vertices;
     const double fine = std::min<double>(fine_vertices(static_cast<std::uint64_t>(vertices)), 4 * lit) +
-                        contact_vertices + lit / contact_share;
+                        contact_vertices + gathering / contact_share;
     plan.program = bytes_of_program;
     plan.samples = static_cast<std::uint64_t>(lit);
     plan.vertices = static_cast<std::uint64_t>(vertices + fine);
@@ -78,7 +81,7 @@ MemoryPlan plan_memory(const Scene& scene, int channels) {
     const double shares = double(scene.luminaires.size()) * share_of_luminaires + 1;
     plan.direct = bytes((lit + fine) * (24 + 12 * shares));
     const int most_rays = std::max(scene.solve.max_rays, independent_sets * rays_per_pass);
-    const double receivers = lit + contact_vertices + lit / contact_share;
+    const double receivers = gathering + contact_vertices + gathering / contact_share;
     plan.rows = bytes(8.0 * receivers * most_rays + 12.0 * receivers * independent_sets * rays_per_pass);
     // Of the system some fifteen vectors (gather_system.h); at all vertices indirect light, the whole of it, and what
     // is read of direct light.

@@ -5,6 +5,8 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "core/solve/relative_error.h"
+
 namespace lueur {
 
 namespace {
@@ -63,30 +65,16 @@ std::vector<float> half_differences(std::span<const GatherPass> passes, const Sc
     return difference;
 }
 
-double ray_error(std::span<const GatherPass> passes, const ScalarRadiosity& radiosity, std::span<const float> direct,
-                 std::span<const float> weight, const SmoothedReceivers& smoothed) {
-    if (passes.size() < independent_sets || passes.size() % independent_sets != 0) return 1;
-    const std::uint32_t n = static_cast<std::uint32_t>(radiosity.indirect.size());
-    ScalarRadiosity b = radiosity;
-    b.indirect.push_back(0);
-    b.direct.push_back(0);
-    std::vector<float> total(n);
-    tbb::parallel_for(Range(0, n, 256), [&](const Range& range) {
-        for (std::uint32_t i = range.begin(); i < range.end(); ++i) {
-            double sum = 0;
-            for (const GatherPass& pass : passes) sum += pass_mean(pass, i, b);
-            total[i] = static_cast<float>(direct[i] + sum / double(passes.size()));
-        }
-    });
-    std::vector<float> difference = smoothed.of(half_differences(passes, radiosity));
+double relative_ray_error(std::span<const float> irradiance, std::span<const float> shown_difference,
+                          std::span<const float> weight, const SmoothedReceivers& smoothed) {
     double area = 0, flux = 0;
-    for (std::uint32_t i = 0; i < n; ++i) area += weight[i], flux += double(weight[i]) * total[i];
+    for (std::size_t i = 0; i < weight.size(); ++i) area += weight[i], flux += double(weight[i]) * irradiance[i];
     if (!(flux > 0)) return 0;
-    const double dark = 0.02 * flux / area;
+    const double dark = dark_share * flux / area;
     double sum = 0, counted = 0;
-    for (std::uint32_t i = 0; i < n; ++i) {
-        if (weight[i] <= 0 || total[i] < dark) continue;
-        const double relative = double(difference[smoothed.vertex[i]]) / total[i];
+    for (std::size_t i = 0; i < weight.size(); ++i) {
+        if (weight[i] <= 0 || irradiance[i] < dark) continue;
+        const double relative = double(shown_difference[smoothed.vertex[i]]) / irradiance[i];
         sum += double(weight[i]) * relative * relative;
         counted += weight[i];
     }
@@ -95,6 +83,7 @@ double ray_error(std::span<const GatherPass> passes, const ScalarRadiosity& radi
 
 double grey_ray_error(std::span<const GatherPass> passes, std::span<const float> fine_direct,
                       std::span<const float> weight, const SmoothedReceivers& smoothed) {
+    if (passes.size() < independent_sets || passes.size() % independent_sets != 0) return 1;
     const std::uint32_t n = static_cast<std::uint32_t>(weight.size());
     ScalarRadiosity b{std::vector<float>(n + 1, 0), std::vector<float>(fine_direct.begin(), fine_direct.end())};
     for (float& direct : b.direct) direct *= grey;
@@ -112,9 +101,9 @@ double grey_ray_error(std::span<const GatherPass> passes, std::span<const float>
     }
     b.indirect.pop_back();
     b.direct.pop_back();
-    std::vector<float> direct;
-    for (const std::uint32_t v : smoothed.vertex) direct.push_back(fine_direct[v]);
-    return ray_error(passes, b, direct, weight, smoothed);
+    std::vector<float> irradiance(n); // of a solution, what arrives is what is reflected over grey
+    for (std::uint32_t i = 0; i < n; ++i) irradiance[i] = fine_direct[smoothed.vertex[i]] + b.indirect[i] / grey;
+    return relative_ray_error(irradiance, smoothed.of(half_differences(passes, b)), weight, smoothed);
 }
 
 } // namespace lueur

@@ -28,18 +28,18 @@ struct SmoothedReceivers {
     std::vector<float> of(const std::vector<float>& at_receivers) const; // one a vertex
 };
 
-// Relative RMS standard error of the irradiance direct + gathered, as shown, over receivers brighter than 2 % of the
-// mean, from the two sets. direct: irradiance of the receivers. An even number of passes, at least two, else 1.
-// Receivers with weight 0 do not count.
-double ray_error(std::span<const GatherPass> passes, const ScalarRadiosity& radiosity, std::span<const float> direct,
-                 std::span<const float> weight, const SmoothedReceivers& smoothed);
-
 // Half the difference of the sets at each receiver: its square is the variance of their mean, and it goes through any
 // linear map as the mean does. A single pass is taken for two sets, of every other ray: those are not independent, but
 // spread evenly between each other, and so differ more than they err.
 std::vector<float> half_differences(std::span<const GatherPass> passes, const ScalarRadiosity& radiosity);
 
-// The same for the grey stand-in, which it solves. fine_direct: guessed irradiance at all vertices.
+// Relative RMS standard error over receivers brighter than 2 % of the mean: of their irradiances, and of what differs
+// at vertices as shown. Receivers with weight 0 do not count.
+double relative_ray_error(std::span<const float> irradiance, std::span<const float> shown_difference,
+                          std::span<const float> weight, const SmoothedReceivers& smoothed);
+
+// The same for the grey stand-in, which it solves. fine_direct: guessed irradiance at all vertices. An even number of
+// passes, at least two, else 1.
 double grey_ray_error(std::span<const GatherPass> passes, std::span<const float> fine_direct,
                       std::span<const float> weight, const SmoothedReceivers& smoothed);
 

@@ -49,12 +49,22 @@ Shooting::Shooting(const World& world, const Mesh& mesh, Scenery scenery, std::v
     lit_share_ = scenery.lit_share;
     patch_area_.assign(patches, 0);
     patch_closed_.assign(patches, 1);
+    patch_lit_.assign(patches, 0);
+    std::vector<float> least(patches, 1), most(patches, 0);
     patch_first_.assign(patches + 1, 0);
     for (std::uint32_t e = 0; e < mesh.coarse_element_count; ++e) {
         patch_area_[mesh.coarse_patch[e]] += mesh.coarse_area[e];
         ++patch_first_[mesh.coarse_patch[e] + 1];
-        for (int k = 0; k < 3; ++k)
-            if (!scenery.closed[mesh.nodes[e].vertices[k]]) patch_closed_[mesh.coarse_patch[e]] = 0;
+        for (int k = 0; k < 3; ++k) {
+            const std::uint32_t p = mesh.coarse_patch[e], v = mesh.nodes[e].vertices[k];
+            if (!scenery.closed[v]) patch_closed_[p] = 0;
+            patch_lit_[p] += mesh.coarse_area[e] / 3 * scenery.lit[v];
+            least[p] = std::min(least[p], scenery.lit[v]), most[p] = std::max(most[p], scenery.lit[v]);
+        }
+    }
+    for (std::uint32_t p = 0; p < patches; ++p) {
+        if (patch_area_[p] > 0) patch_lit_[p] /= patch_area_[p];
+        patch_lit_spread_.push_back(std::max(0.0f, most[p] - least[p]));
     }
     std::partial_sum(patch_first_.begin(), patch_first_.end(), patch_first_.begin());
     patch_elements_.resize(mesh.coarse_element_count);
@@ -148,7 +158,12 @@ void Shooting::deliver(const std::vector<float>& form_factor, std::uint32_t shoo
     float scale = 1;
     if (received > area || (patch_closed_[shooter] && received > 0))
         scale = std::min(most_scaling, static_cast<float>(area / received));
-    for (int c = 0; c < channels; ++c) arrived_ += weight_[c] * radiosity[c] * scale * received;
+    double brightness = 0;
+    for (int c = 0; c < channels; ++c) brightness += weight_[c] * radiosity[c];
+    arrived_ += brightness * scale * received;
+    const double lacking = patch_lit_[shooter] * area - scale * received,
+                 open = 0.5 * patch_lit_spread_[shooter] * area;
+    lost_ += brightness * std::copysign(std::max(0.0, std::abs(lacking) - open), lacking);
     ChannelField irradiance(mesh_->coarse_vertex_count, channels);
     tbb::parallel_for(Range(0, irradiance.count, patches_a_task), [&](const Range& range) {
         for (std::uint32_t i = range.begin(); i < range.end(); ++i) {
@@ -240,6 +255,11 @@ double Shooting::missing_share() const {
     const double absorbed = std::max(least_absorbed, 1 - mean_rho_ * lit_share_);
     const double missing = unshot_total_ / absorbed;
     return arrived_ > 0 ? std::min(1.0, missing / (missing + arrived_)) : 0;
+}
+
+double Shooting::lost_share() const {
+    const double lost = lost_ / std::max(least_absorbed, 1 - mean_rho_ * lit_share_);
+    return arrived_ + std::abs(lost) > 0 ? lost / (arrived_ + std::abs(lost)) : 0;
 }
 
 double Shooting::shots_needed(double enough) const {

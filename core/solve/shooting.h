@@ -24,10 +24,11 @@ public:
     Shooting() = default;
     // direct[l]: irradiance at the coarse vertices for luminaire l, already times its exitance. `weight`: of each
     // channel in "the largest unshot flux" (luminous efficacy, and a little of all wavelengths so that blue is not
-    // forgotten). closed: of coarse vertices that see lit surfaces only; lit_share: of what surfaces send, that meets
-    // others.
+    // forgotten). lit: of what coarse vertices send, the share that meets lit surfaces, by rays; closed: those that see
+    // such surfaces only; lit_share: of all that surfaces send.
     struct Scenery {
         std::vector<glm::vec3> origins;
+        std::vector<float> lit;
         std::vector<std::uint8_t> buried, closed;
         std::vector<std::uint8_t> luminaire_closed;
         double lit_share = 1;
@@ -40,6 +41,9 @@ public:
     // Of all the light that arrives in the end, the share that is still missing: each unit unshot is reflected on,
     // 1 / (1 - rho_ave) times if nothing is lost.
     double missing_share() const;
+    // Of all the light that arrives in the end, the share that shots have lost (below 0: made), as far as it is known:
+    // what arrived of each, against what the rays of its patch say must, beyond what they leave open; reflected on.
+    double lost_share() const;
     // Shots that will have been taken when that is down to `enough`, at the rate of the last patches(); 0: not yet
     // known.
     double shots_needed(double enough) const;
@@ -77,6 +81,7 @@ private:
     std::vector<std::uint8_t> luminaire_shot_;
     ChannelField rho_; // of each patch
     std::vector<float> patch_area_;
+    std::vector<float> patch_lit_, patch_lit_spread_; // share of what a patch sends that must arrive; its vertices'
     std::vector<std::uint32_t> patch_first_,
         patch_elements_; // coarse elements of patch p: patch_elements_[patch_first_[p]..patch_first_[p+1]]
     std::vector<float> weight_;
@@ -85,8 +90,8 @@ private:
     std::vector<float> unshot_flux_; // patches, weighted
     std::vector<double> mean_rho_channel_;
     double total_area_ = 0, emitted_total_ = 0, unshot_total_ = 0, mean_rho_ = 0;
-    double lit_share_ = 1, arrived_ = 0; // weighted flux that has arrived
-    std::vector<double> missing_;        // after each round of as many shots as there are patches
+    double lit_share_ = 1, arrived_ = 0, lost_ = 0; // weighted flux that has arrived, that should have besides
+    std::vector<double> missing_;                   // after each round of as many shots as there are patches
     std::uint32_t seed_ = 1, shots_ = 0, luminaires_shot_ = 0, last_shooter_ = no_index;
     std::uint64_t rays_ = 0;
 };

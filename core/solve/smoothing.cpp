@@ -131,7 +131,8 @@ void smooth(const Smoothing& smoothing, ChannelField& field) {
     if (smoothing.empty()) return;
     const ChannelField before = field;
     const auto stride = static_cast<std::size_t>(field.stride);
-    tbb::parallel_for(Range(0, field.count, 128), [&](const Range& range) {
+    const auto rows = static_cast<std::uint32_t>(std::min<std::size_t>(field.count, smoothing.first.size() - 1));
+    tbb::parallel_for(Range(0, rows, 128), [&](const Range& range) {
         for (std::uint32_t v = range.begin(); v < range.end(); ++v) {
             const std::uint32_t first = smoothing.first[v], last = smoothing.first[v + 1];
             if (first == last) continue;
@@ -142,7 +143,6 @@ void smooth(const Smoothing& smoothing, ChannelField& field) {
                 const float* row = before[smoothing.neighbour[k]];
                 for (std::size_t c = 0; c < stride; ++c) out[c] += weight * row[c];
             }
-            for (std::size_t c = 0; c < stride; ++c) out[c] = std::max(0.0f, out[c]); // beside a steep place
         }
     });
 }

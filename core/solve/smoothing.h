@@ -34,6 +34,7 @@ float smoothing_reach(std::uint32_t rays);
 Smoothing make_smoothing(const Mesh& mesh, std::span<const glm::uvec3> elements, std::span<const std::uint8_t> buried,
                          std::span<const float> distance, float reach, float farthest);
 
+// Beside steep places planes may go below every value they are laid through: also below 0.
 void smooth(const Smoothing& smoothing, ChannelField& field);
 void smooth(const Smoothing& smoothing, std::vector<float>& values);
 

@@ -1,6 +1,7 @@
 // The phases of a solution and which solver has them.
 #include "core/solve/solution.h"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -56,14 +57,20 @@ void step_solve(State& s, const std::atomic<bool>& cancel, bool one_shot) {
     }
 }
 
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 // What only another solver can use, and may be large. A matrix serves all that are solved on one.
 void forget_other_solvers(State& s) {
     if (!uses_form_factors(s.solver())) s.patch_solve = {};
+    if (s.solver() != SolverKind::gathering) s.light_bases.forget(), s.basis_in_the_making.reset();
     if (s.solver() != SolverKind::shooting) s.shooting = {};
     if (s.solver() != SolverKind::reference) s.traced.reset();
     if (s.solver() != SolverKind::hierarchical) {
         s.final_gather.reset();
         s.making_hierarchy = {};
+        s.making_shown = {};
         s.making_leaf_mesh = {};
         s.hierarchy.reset();
         s.hierarchy_view.reset();
@@ -90,8 +97,8 @@ void warn_of_error(SolveStatus& status, const SolveSettings& solve) {
 
 void start_solver(State& s, bool same_sources) {
     if (s.solver() != SolverKind::hierarchical) s.status.links = 0;
-    if (s.solver() != SolverKind::gathering) s.indirect_deviation.clear(); // it was another solver's
-    if (!s.fully_refined()) s.probes = {};                                 // they read the mesh as it was then
+    if (s.solver() != SolverKind::gathering) s.indirect_deviation.clear(), s.rays_unjudged = false; // another solver's
+    if (!s.fully_refined()) s.probes = {}; // they read the mesh as it was then
     switch (s.solver()) {
     case SolverKind::automatic:
     case SolverKind::gathering:
@@ -134,15 +141,18 @@ Solution& Solution::operator=(Solution&&) noexcept = default;
 
 void Solution::update(std::shared_ptr<const Scene> scene, SolveFrom stale) {
     State& s = *state_;
-    const SolveSettings before = s.scene->solve;
+    const auto start = std::chrono::steady_clock::now();
+    const std::shared_ptr<const Scene> scene_before = std::exchange(s.scene, std::move(scene));
+    const SolveSettings& before = scene_before->solve;
     const SolverKind solver_before = s.solver();
-    s.scene = std::move(scene);
     s.chosen = chosen_solver(*s.scene);
     if (stale == SolveFrom::nothing) return;
     // Leaves have cut the mesh as links asked for it; other solvers, and other links, start from their own.
     const bool other_links =
         s.scene->solve.oracle != before.oracle || s.scene->solve.link_tolerance != before.link_tolerance;
     if (s.leaf_mesh && (s.solver() != solver_before || other_links)) stale = SolveFrom::mesh;
+    for (std::size_t l = 0; l < std::min(s.scene->luminaires.size(), scene_before->luminaires.size()); ++l)
+        if (s.scene->luminaires[l] != scene_before->luminaires[l]) s.light_bases.want(l);
     s.stock.reset();
     s.status.seconds = 0;
     s.status.last_edit_seconds = 0;
@@ -187,6 +197,7 @@ void Solution::update(std::shared_ptr<const Scene> scene, SolveFrom stale) {
     case SolvePhase::failed:
         start_solver(s, same.sources);
     }
+    s.status.seconds = seconds_since(start);
 }
 
 bool Solution::step(const std::atomic<bool>& cancel, bool one_shot) {
@@ -224,7 +235,7 @@ bool Solution::step(const std::atomic<bool>& cancel, bool one_shot) {
     }
     s.status.rays += s.direct->rays() - direct_before;
     if (s.status.stage == SolveStage::direct) s.status.progress = s.direct->progress();
-    s.status.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    s.status.seconds += seconds_since(start);
     if (s.edit_open && s.phase == SolvePhase::settled) {
         s.edit_open = false;
         s.status.last_edit_seconds = s.status.seconds;
@@ -237,8 +248,14 @@ bool Solution::step(const std::atomic<bool>& cancel, bool one_shot) {
     return s.phase != SolvePhase::settled && s.phase != SolvePhase::failed;
 }
 
+bool Solution::prepare_edits(const std::atomic<bool>& cancel) {
+    return state_->phase == SolvePhase::settled && state_->solver() == SolverKind::gathering &&
+           prepare_gathering_edits(*state_, cancel);
+}
+
 void Solution::take_stock() {
     if (!state_->published_mesh) return;
+    take_stock_of_gathering(*state_);
     state_->stock = compose_field(*state_);
     state_->status.estimated_error = state_->stock->scene_error;
 }

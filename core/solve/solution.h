@@ -35,6 +35,10 @@ public:
     // nothing is left to do. `one_shot`: a step of the shooting solver is a single shot, to be looked at.
     bool step(const std::atomic<bool>& cancel, bool one_shot = false);
 
+    // A settled solution brings forward by some 5 ms what makes the next edits cheap: what each luminaire alone does,
+    // so that another dimmer or spectrum is a sum. Changes nothing that is seen; false when nothing is left to do.
+    bool prepare_edits(const std::atomic<bool>& cancel);
+
     // Brings status().estimated_error up to date with field() where the solver was stopped on its way; a settled one
     // is.
     void take_stock();

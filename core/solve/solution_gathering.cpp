@@ -1,6 +1,7 @@
 // The gathering solver in a solution: rows of rays, as many as the target error needs, and sweeps over them.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/solve/least_absorbed.h"
 #include "core/solve/ray_budget.h"
@@ -12,9 +13,10 @@ namespace lueur {
 namespace {
 
 constexpr double residual_target = 2e-4;             // |r| / |b|, worst channel
+constexpr double residuals_in_a_sum = 4;             // a sum of bases may have more of it than each
 constexpr double first_residual_target = 5e-3;       // of the first picture, whose rays know no more
 constexpr std::uint32_t most_gathering_sweeps = 400; // a system that needs more does not converge
-constexpr std::uint32_t first_passes = 2;            // before the mesh is refined
+constexpr std::uint32_t coarse_passes = 2;           // before the mesh is refined
 constexpr double smoothing_farthest = 3;             // coarse element sizes
 constexpr double ray_share = 0.7; // of the target error that the rays may take; interpolation has the rest
 
@@ -52,12 +54,13 @@ std::uint32_t fine_vertices_of_rays(const State& s) {
     return s.passes.empty() ? static_cast<std::uint32_t>(s.mesh.vertices.size()) : s.passes.front().fine_vertices;
 }
 
-// Direct light reflected at the fine vertices: rho D E; the row after those that rays end at is zero.
-ChannelField reflected_direct(const State& s) {
+// Direct light reflected at the fine vertices: rho D E; the row after those that rays end at is zero. Luminaires
+// without any channels are left out.
+ChannelField reflected_direct(const State& s, const Exitances& exitance) {
     const std::uint32_t count = fine_vertices_of_rays(s);
     const int channels = s.channels();
     ChannelField b(static_cast<std::uint32_t>(s.mesh.vertices.size()) + 1, channels);
-    read_direct(s, std::vector<std::uint8_t>(s.luminaire_exitance.size(), 1), b);
+    read_direct(s, exitance, b);
     std::fill_n(b[count], channels, 0.0f);
     tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, count, 256),
                       [&](const tbb::blocked_range<std::uint32_t>& range) {
@@ -85,16 +88,19 @@ double gathering_missing_share(const State& s, const std::vector<float>& areas, 
     return missing > 0 ? missing / (missing + arriving) : 0;
 }
 
-void update_error(State& s) {
+} // namespace
+
+void take_stock_of_gathering(State& s) {
+    if (!std::exchange(s.rays_unjudged, false)) return;
     const std::uint32_t receivers = s.receivers.count();
     ScalarRadiosity radiosity{std::vector<float>(receivers), std::vector<float>(fine_vertices_of_rays(s))};
     for (std::uint32_t i = 0; i < receivers; ++i)
         radiosity.indirect[i] = static_cast<float>(luminous(s, s.system.radiosity()[i]));
     // Direct irradiance and its reflection, the luminous part of both.
-    std::vector<float> direct(receivers, 0);
+    std::vector<float> direct(receivers, 0); // that of the rays is added below
     {
         ChannelField h(static_cast<std::uint32_t>(s.mesh.vertices.size()), s.channels());
-        read_direct(s, std::vector<std::uint8_t>(s.luminaire_exitance.size(), 1), h);
+        read_direct(s, s.luminaire_exitance, h);
         std::vector<std::vector<float>> reflected; // of each paint: what a channel's irradiance gives
         for (const std::vector<double>& rho : s.material_rho) {
             reflected.emplace_back();
@@ -113,12 +119,17 @@ void update_error(State& s) {
     s.indirect_deviation = smoothed.of(half_differences(s.passes, radiosity));
     for (float& d : s.indirect_deviation) d = std::abs(d);
     const std::vector<float> areas = receiver_areas(s);
-    const double rays = ray_error(s.passes, radiosity, direct, areas, smoothed);
     const double unsolved = gathering_missing_share(s, areas, direct);
+    for (std::uint32_t i = 0; i < receivers; ++i)
+        direct[i] += static_cast<float>(luminous(s, s.gathered_direct[i]) + luminous(s, s.system.gathered()[i]));
+    const double rays =
+        s.passes.size() % independent_sets == 0 ? relative_ray_error(direct, s.indirect_deviation, areas, smoothed) : 1;
     const double interpolation = s.direct->misfit();
     s.status.estimated_error =
         std::min(1.0, std::sqrt(rays * rays + unsolved * unsolved + interpolation * interpolation));
 }
+
+namespace {
 
 // In a part of the scene that keeps all its light the radiosity grows without end: say so instead of iterating. Light
 // of a receiver can end if it absorbs, if one of its rays leaves the scene, or if one ends where light can.
@@ -153,23 +164,43 @@ bool has_no_finite_solution(const State& s) {
     return false;
 }
 
+// What light can be at least, in each channel: nothing; without end where luminaires or paints lie outside the gamut of
+// trichromatic channels.
+std::vector<float> least_light(const State& s) {
+    std::vector<float> least(static_cast<std::size_t>(s.channels()), 0);
+    for (const auto* all : {&s.luminaire_exitance, &s.material_rho})
+        for (const std::vector<double>& values : *all)
+            for (std::size_t c = 0; c < values.size(); ++c)
+                if (values[c] < 0) least[c] = -std::numeric_limits<float>::infinity();
+    return least;
+}
+
+// Sweeps make the residual small, not each value: on the way some are less than nothing, and planes laid through steep
+// places are too. The solution is not.
 void refresh_indirect(State& s) {
     const LightSamples& samples = s.direct->samples();
-    const int channels = s.channels();
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, s.indirect_irradiance.count, 512), [&](const auto& range) {
-        const auto add = [&](std::uint32_t v, std::uint32_t i, float weight) {
-            for (int c = 0; c < channels; ++c)
-                s.indirect_irradiance[v][c] += weight * (s.gathered_direct[i][c] + s.system.gathered()[i][c]);
+    const std::vector<float> least = least_light(s);
+    ChannelField& indirect = s.indirect_irradiance;
+    const auto for_all_vertices = [&](const auto& f) {
+        tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, indirect.count, 256), [&](const auto& range) {
+            for (std::uint32_t v = range.begin(); v < range.end(); ++v) f(v);
+        });
+    };
+    for_all_vertices([&](std::uint32_t v) {
+        std::fill_n(indirect[v], least.size(), 0.0f);
+        const auto add = [&](std::uint32_t i, float weight) {
+            for (std::size_t c = 0; c < least.size(); ++c)
+                indirect[v][c] += weight * (s.gathered_direct[i][c] + s.system.gathered()[i][c]);
         };
-        for (std::uint32_t v = range.begin(); v < range.end(); ++v) {
-            std::fill_n(s.indirect_irradiance[v], channels, 0.0f);
-            if (samples.is_sample(v))
-                add(v, s.receivers.of_vertex[v], 1);
-            else
-                for (const LightSamples::Reading& r : samples.readings_of(v)) add(v, r.sample, r.weight);
-        }
+        if (samples.is_sample(v))
+            add(s.receivers.of_vertex[v], 1);
+        else
+            for (const LightSamples::Reading& r : samples.readings_of(v)) add(r.sample, r.weight);
     });
-    smooth(s.smoothing, s.indirect_irradiance);
+    smooth(s.smoothing, indirect);
+    for_all_vertices([&](std::uint32_t v) {
+        for (std::size_t c = 0; c < least.size(); ++c) indirect[v][c] = std::max(least[c], indirect[v][c]);
+    });
 }
 
 // What reads samples is smooth already.
@@ -182,16 +213,64 @@ void renew_smoothing(State& s) {
                                  static_cast<float>(smoothing_farthest * s.element_size));
 }
 
+LightBasesRoom room_for_bases(const State& s) {
+    return {s.receivers.count(), s.channels(), s.luminaire_exitance.size()};
+}
+
+// Receivers that have come to those of the system are given what the vertices have between which they lie: a picture
+// that is there does not go dark while the finer one is solved.
+ChannelField radiosity_of_more_receivers(const State& s) {
+    const ChannelField& known = s.system.radiosity();
+    const std::uint32_t before = s.system.count(), count = s.receivers.count();
+    ChannelField guess(count + 1, s.channels());
+    for (std::uint32_t i = 0; i < count; ++i) {
+        if (i < before) {
+            std::copy_n(known[i], guess.stride, guess[i]);
+            continue;
+        }
+        for (const std::uint32_t parent : s.mesh.vertices[s.receivers.vertex[i]].parents) { // they come first
+            if (parent == no_index) continue;
+            const float* row = guess[s.receivers.of_vertex[parent]];
+            for (int c = 0; c < guess.stride; ++c) guess[i][c] += 0.5f * row[c];
+        }
+    }
+    return guess;
+}
+
+// Rays that the system knows nothing of: edits come between passes too.
+bool has_other_rows(const State& s) {
+    return !s.solving || s.rows_of_system != s.passes_traced;
+}
+
 // New sources, paints or rays: one reflection of direct light is gathered anew, then the system holds them.
-void gather_direct(State& s, bool new_rays) {
+void gather_direct(State& s) {
     const std::uint32_t n = s.receivers.count();
     const std::atomic<bool> never{false};
-    s.gathered_direct = ChannelField(n, s.channels());
+    const bool other_rows = has_other_rows(s);
     s.indirect_irradiance = ChannelField(s.mesh.indirect_vertex_count, s.channels());
-    apply_rows(s.passes, RayEnds::fine, reflected_direct(s), s.gathered_direct, never);
-    if (!s.solving || s.system.count() != n) s.system = GatherSystem(n, s.channels(), receiver_areas(s));
-    if (new_rays) s.system.set_rows(s.passes), renew_smoothing(s);
-    s.system.set_sources(rho_of_receivers(s), s.gathered_direct);
+    if (!s.solving || s.system.count() != n) {
+        std::optional<ChannelField> guess;
+        if (s.solving && s.system.count() > 0) guess = radiosity_of_more_receivers(s);
+        s.system = GatherSystem(n, s.channels(), receiver_areas(s));
+        if (guess) s.system.set_guess(std::move(*guess));
+    }
+    if (other_rows) {
+        s.light_bases.forget();
+        s.basis_in_the_making.reset();
+        s.system.set_rows(s.passes);
+        s.rows_of_system = s.passes_traced;
+        renew_smoothing(s);
+    }
+    s.light_bases.keep_for(room_for_bases(s), s.material_rho);
+    if (auto known = s.light_bases.sum(s.luminaire_exitance)) {
+        s.gathered_direct = std::move(known->gathered);
+        s.system.set_sources(rho_of_receivers(s), s.gathered_direct, std::move(known->radiosity),
+                             std::move(known->arriving));
+    } else {
+        s.gathered_direct = ChannelField(n, s.channels());
+        apply_rows(s.passes, RayEnds::fine, reflected_direct(s, s.luminaire_exitance), s.gathered_direct, never);
+        s.system.set_sources(rho_of_receivers(s), s.gathered_direct);
+    }
     s.solving = true;
     s.status.sweeps = 0;
     refresh_indirect(s);
@@ -234,7 +313,7 @@ void start_gathering(State& s, bool same_sources) {
         return;
     }
     s.status.sweeps = 0;
-    if (!s.solving || !same_sources) gather_direct(s, !s.solving);
+    if (!same_sources || has_other_rows(s)) gather_direct(s);
     s.phase = SolvePhase::solve;
 }
 
@@ -263,6 +342,7 @@ void trace_gathering_rows(State& s, const std::atomic<bool>& cancel) {
     s.status.rays += traced.load();
     if (!done) return;
     s.pass_open = false;
+    ++s.passes_traced;
     if (s.fully_refined()) s.passes.back().hits = {};
     s.status.rays_per_receiver = static_cast<std::uint32_t>(s.passes.size()) * rays_per_pass;
     s.status.row_entries = std::uint64_t(s.receivers.count()) * s.status.rays_per_receiver;
@@ -272,7 +352,7 @@ void trace_gathering_rows(State& s, const std::atomic<bool>& cancel) {
         plan_passes(s);
         if (s.passes.size() < s.passes_wanted) return;
     }
-    gather_direct(s, true);
+    gather_direct(s);
     s.phase = SolvePhase::solve;
 }
 
@@ -294,25 +374,70 @@ void step_gathering(State& s, const std::atomic<bool>& cancel) {
     s.status.unshot_share = unshot_flux_share(s);
     s.status.residual = s.system.relative_residual();
     if (s.system.relative_residual() > target) return;
-    update_error(s);
-    if (!s.refined) { // first what tells most: rays, as long as they are few, then shadows' edges and contacts
-        if (s.passes.size() < first_passes) {
-            s.passes_wanted = std::min(first_passes, 2 * s.passes_wanted);
-            s.phase = SolvePhase::transport;
-        } else
-            s.phase = SolvePhase::refine;
-        return;
-    }
-    if (!s.direct->refined()) {
-        s.phase = SolvePhase::refine;
-        return;
-    }
-    plan_passes(s);
-    if (s.passes.size() < s.passes_wanted) {
+    s.rays_unjudged = true;
+    const bool refined = s.fully_refined();
+    if (refined) plan_passes(s);
+    if (refined && s.passes.size() >= s.passes_wanted && s.probes.complete()) return settle(s);
+    take_stock_of_gathering(s); // a settled solution is judged when it is shown
+    if (refined) {
+        s.only_probes_left = s.passes.size() >= s.passes_wanted;
+        if (!s.only_probes_left) s.phase = SolvePhase::transport;
+    } else if (!s.refined && s.passes.size() < coarse_passes) {
+        // First what tells most: rays, as long as they are few, then shadows' edges and contacts.
+        s.passes_wanted = std::min(coarse_passes, 2 * s.passes_wanted);
         s.phase = SolvePhase::transport;
-        return;
+    } else {
+        s.phase = SolvePhase::refine;
     }
-    s.only_probes_left = true;
+}
+
+// One sweep, or what comes before the first: of what one luminaire does alone, or of what is shown, from which edits
+// start while not all luminaires have a basis. Both are solved further than what is shown, for sums add residuals up.
+bool prepare_gathering_edits(State& s, const std::atomic<bool>& cancel) {
+    using Making = State::BasisInTheMaking;
+    LightBases& bases = s.light_bases;
+    if (s.passes.empty() || s.status.emitted_lumens <= 0) return false;
+    bases.keep_for(room_for_bases(s), s.material_rho);
+    std::optional<std::size_t> luminaire = bases.next();
+    if (luminaire && !bases.has_reference(s.luminaire_exitance)) luminaire = Making::all_as_they_are;
+    if (!luminaire) {
+        s.basis_in_the_making.reset();
+        return false;
+    }
+    const std::uint32_t n = s.receivers.count();
+    Exitances exitance = s.luminaire_exitance;
+    if (*luminaire != Making::all_as_they_are) {
+        exitance.assign(exitance.size(), {});
+        exitance[*luminaire].assign(static_cast<std::size_t>(s.channels()), 1.0);
+    }
+    if (!s.basis_in_the_making || s.basis_in_the_making->exitance != exitance ||
+        s.basis_in_the_making->rho != s.material_rho) {
+        Making making{exitance, s.material_rho, 0, s.gathered_direct, s.system};
+        if (*luminaire != Making::all_as_they_are) {
+            if (!apply_rows(s.passes, RayEnds::fine, reflected_direct(s, exitance), making.gathered, cancel))
+                return true;
+            making.system = GatherSystem(n, s.channels(), receiver_areas(s));
+            making.system.set_sources(rho_of_receivers(s), making.gathered);
+        }
+        s.basis_in_the_making = std::move(making);
+        return true;
+    }
+    Making& making = *s.basis_in_the_making;
+    if (making.system.relative_residual() > residual_target / residuals_in_a_sum) {
+        if (!making.system.sweep(s.passes, cancel)) return true;
+        if (making.system.diverged() || ++making.sweeps > most_gathering_sweeps) {
+            if (*luminaire == Making::all_as_they_are) return false;
+            bases.give_up(*luminaire);
+        }
+        return true;
+    }
+    LightSolution solution{std::move(making.gathered), making.system.radiosity(), making.system.gathered()};
+    if (*luminaire == Making::all_as_they_are)
+        bases.set_reference(exitance, std::move(solution));
+    else
+        bases.add(*luminaire, std::move(solution));
+    s.basis_in_the_making.reset();
+    return true;
 }
 
 double gathering_progress(const State& s) {

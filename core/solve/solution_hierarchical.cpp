@@ -62,16 +62,34 @@ void direct_at(const State& s, glm::vec3 position, glm::vec3 normal, float* fact
                                         VisibilityDetail::whole_cells, rays);
 }
 
-void show_links(State& s) {
+void begin_to_show(State& s) {
     std::vector<double> luminous;
     for (const Xyz& w : s.wavelengths->xyz_weight) luminous.push_back(w.y);
-    s.hierarchy_view = std::make_shared<const HierarchyView>(view_hierarchy(*s.hierarchy, luminous));
+    s.making_shown =
+        std::async(std::launch::async, [&hierarchy = *s.hierarchy, &leaves = *s.leaf_mesh, &elements = s.mesh.elements,
+                                        channels = s.channels(), luminous = std::move(luminous)] {
+            State::ShownLeaves shown;
+            shown.view = std::make_shared<const HierarchyView>(view_hierarchy(hierarchy, luminous));
+            std::vector<std::uint8_t> inside;
+            shown.irradiance = irradiance_at_vertices(hierarchy, leaves.readings(), channels, inside);
+            fill_buried(elements, std::move(inside), shown.irradiance);
+            return shown;
+        });
 }
 
-void refresh_values(State& s) {
-    std::vector<std::uint8_t> inside;
-    s.indirect_irradiance = irradiance_at_vertices(*s.hierarchy, s.leaf_mesh->readings(), s.channels(), inside);
-    fill_buried(s.mesh.elements, std::move(inside), s.indirect_irradiance);
+// True when it is through.
+bool show(State& s) {
+    if (!s.making_shown.valid()) begin_to_show(s);
+    if (!is_ready(s.making_shown)) return false;
+    State::ShownLeaves shown = s.making_shown.get();
+    if (std::exchange(s.sources_wait, false)) { // it was of other light
+        s.hierarchy->set_sources(sources_of(s));
+        return true;
+    }
+    s.hierarchy_view = std::move(shown.view);
+    s.indirect_irradiance = std::move(shown.irradiance);
+    s.shown_round = s.hierarchy->rounds();
+    return true;
 }
 
 // New vertices show what their parents do until they have their own.
@@ -126,10 +144,7 @@ void step_show_leaves(State& s, const std::atomic<bool>& cancel) {
         s.show_leaves = Part::values;
         return;
     case Part::values:
-        show_links(s);
-        refresh_values(s);
-        s.shown_round = s.hierarchy->rounds();
-        s.show_leaves = Part::no;
+        if (show(s)) s.show_leaves = Part::no;
         return;
     }
 }
@@ -183,7 +198,12 @@ void step_final_gather(State& s, const std::atomic<bool>& cancel) {
         if (!s.final_done) return;
     }
     if (s.final_gather) {
-        s.indirect_irradiance = s.final_gather->irradiance(*s.hierarchy, s.channels());
+        if (s.final_irradiance.count == 0) {
+            s.final_irradiance = ChannelField(static_cast<std::uint32_t>(s.mesh.vertices.size()), s.channels());
+            s.final_cursor = 0;
+        }
+        if (!s.final_gather->gather(*s.hierarchy, cancel, s.final_cursor, s.final_irradiance)) return;
+        s.indirect_irradiance = std::exchange(s.final_irradiance, {});
         fill_buried(s.mesh.elements, s.all_buried(), s.indirect_irradiance);
     } else if (s.status.message.empty()) {
         s.status.message = fmt::format(
@@ -202,6 +222,7 @@ void start_hierarchical(State& s, bool same_sources) {
         s.phase = SolvePhase::refine;
         return;
     }
+    s.final_irradiance = {}; // was of other light
     const SolveSettings& solve = s.scene->solve;
     if ((!s.hierarchy && !s.making_hierarchy.valid()) || !s.solving) {
         HierarchySettings settings;
@@ -212,6 +233,8 @@ void start_hierarchical(State& s, bool same_sources) {
         DirectAt direct;
         if (s.direct_light_apart())
             direct = [&s](glm::vec3 p, glm::vec3 n, float* factors) { direct_at(s, p, n, factors); };
+        s.making_shown = {}; // waits for it: it reads what goes
+        s.sources_wait = false;
         s.hierarchy.reset();
         s.making_hierarchy = std::async(
             std::launch::async, [scene = s.scene, world = s.world, settings, direct = std::move(direct)]() mutable {
@@ -226,7 +249,10 @@ void start_hierarchical(State& s, bool same_sources) {
         s.indirect_irradiance = ChannelField(s.mesh.coarse_vertex_count, s.channels());
         same_sources = false;
     }
-    if (!same_sources && s.hierarchy) s.hierarchy->set_sources(sources_of(s)); // else when it is there
+    if (!same_sources && s.hierarchy) { // else when it is there
+        s.sources_wait = s.making_shown.valid();
+        if (!s.sources_wait) s.hierarchy->set_sources(sources_of(s));
+    }
     s.solving = true;
     s.status.sweeps = 0;
     s.phase = SolvePhase::solve;
@@ -260,8 +286,7 @@ void step_hierarchical(State& s, const std::atomic<bool>& cancel) {
                 std::async(std::launch::async, [mesh = s.published_mesh] { return std::make_unique<LeafMesh>(*mesh); });
         s.show_leaves = State::ShowLeaves::make;
     } else if (h.settled()) {
-        show_links(s); // other light on the same links
-        refresh_values(s);
+        s.show_leaves = State::ShowLeaves::values; // other light on the same links
     }
 }
 

@@ -124,14 +124,6 @@ std::string hopeless_shots(const State& s, double enough) {
                        needed, most);
 }
 
-// Direct light of a finer mesh is not used here, so that refinement, which else asks for them, has not been.
-bool trace_matrix_probes(State& s, const std::atomic<bool>& cancel) {
-    const std::vector<std::uint8_t> buried = s.all_buried();
-    const std::uint32_t seed = s.scene->solve.seed;
-    if (s.probes.points.empty()) place_probes(*s.world, s.mesh, *s.direct, buried, probe_count, seed, s.probes);
-    return trace_probes(*s.world, s.mesh, *s.direct, buried, seed, cancel, s.probes);
-}
-
 void take_shots(State& s, const std::atomic<bool>& cancel, bool one_shot, double enough) {
     MatrixSystem& system = s.patch_solve.system;
     TimeSlice slice(cancel);
@@ -148,6 +140,22 @@ void take_shots(State& s, const std::atomic<bool>& cancel, bool one_shot, double
     s.status.shooting_patch = no_index;
     for (std::uint32_t e = 0; e < s.mesh.coarse_element_count && shooter != no_index; ++e)
         if (s.patch_solve.of_element[e] == shooter) s.status.shooting_patch = s.mesh.coarse_patch[e];
+}
+
+// Rows above 1, and what the pixels of item buffers have missed.
+std::string words_of_rows(const PatchSolve& p) {
+    constexpr double missed_share = 0.01; // of the pairs: worth a word
+    std::string words;
+    if (p.sums.above + p.sums.broken > 0)
+        words = fmt::format("form factors of {} of {} patches summed to more than 1 ({:.4g} at most): scaled down to 1",
+                            p.sums.above + p.sums.broken, p.matrix.n, p.sums.largest);
+    if (double(p.cost.missed) > missed_share * double(p.cost.pairs))
+        words += fmt::format("{}{} missed {:.2g} % of the pairs of patches that face each other, {:.2g} % are narrower "
+                             "than two of its pixels: more samples or another method are needed",
+                             words.empty() ? "" : "; ", to_string(p.method),
+                             100 * double(p.cost.missed) / double(p.cost.pairs),
+                             100 * double(p.cost.warned) / double(p.cost.pairs));
+    return words;
 }
 
 bool made_with(const PatchSolve& p, const SolveSettings& solve) {
@@ -182,10 +190,7 @@ void start_matrix(State& s, bool same_sources) {
     s.status.sweeps = s.status.shots = 0;
     p.history.clear();
     p.unshot_history.clear();
-    if (s.status.message.empty() && p.sums.above + p.sums.broken > 0)
-        s.status.message =
-            fmt::format("form factors of {} of {} patches summed to more than 1 ({:.4g} at most): scaled down to 1",
-                        p.sums.above + p.sums.broken, p.matrix.n, p.sums.largest);
+    if (s.status.message.empty()) s.status.message = words_of_rows(p);
     give_sources(s);
 }
 
@@ -215,6 +220,8 @@ void build_matrix(State& s, const std::atomic<bool>& cancel) {
     const bool done =
         fill_rows(p.matrix, p.scene, p.method, row_settings(p.method, p.samples, p.seed), p.cursor, p.cost, cancel);
     s.status.form_factor_cost += p.cost.cost - cost_before;
+    s.status.form_factor_pairs = p.cost.pairs;
+    s.status.form_factors_warned = p.cost.warned, s.status.form_factors_missed = p.cost.missed;
     s.status.progress = p.matrix.n > 0 ? double(p.cursor) / p.matrix.n : 1;
     if (!done) return;
     p.sums = limit_row_sums(p.matrix);
@@ -226,7 +233,8 @@ void build_matrix(State& s, const std::atomic<bool>& cancel) {
 void step_matrix(State& s, const std::atomic<bool>& cancel, bool one_shot) {
     PatchSolve& p = s.patch_solve;
     s.status.stage = SolveStage::solving;
-    if (!s.probes.complete() && !trace_matrix_probes(s, cancel)) return;
+    // Direct light of a finer mesh is not used here, so that refinement, which else asks for them, has not been.
+    if (!ask_probes(s, cancel)) return;
     const bool shots = s.solver() == SolverKind::overshooting;
     double enough = (shots ? unshot_of_shots : unshot_of_sweeps) * s.scene->solve.target_error;
     if (shots) // of the emitted flux: each unit unshot is reflected on, 1 / (1 - rho_ave) times if nothing is lost

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double unshot_part = 0.1;            // of the target error that flux left unshot may take
 constexpr double most_shots_of_a_patch = 1000; // on average
+constexpr std::uint8_t gap_rays = 12;          // of burial_rays that end near by: next to one wall it is half of them
 
 using State = Solution::State;
 
@@ -38,8 +39,15 @@ ChannelField direct_of(const State& s, const std::vector<float>& coarse_direct, 
 }
 
 Shooting::Scenery scenery_of(const State& s) {
-    Shooting::Scenery scenery{s.origins, s.buried, {}, std::vector<std::uint8_t>(s.luminaire_exitance.size(), 1), 1};
-    for (const std::uint8_t lit : s.around.lit) scenery.closed.push_back(lit == burial_rays);
+    Shooting::Scenery scenery{s.origins, {}, s.buried, {}, std::vector<std::uint8_t>(s.luminaire_exitance.size(), 1),
+                              1};
+    for (std::size_t v = 0; v < s.around.lit.size(); ++v) {
+        // Between walls a millimetre apart what slips out does so at the very rim, of which a vertex knows too much.
+        const bool gap = s.around.near[v] >= gap_rays;
+        const int lit = gap ? static_cast<int>(burial_rays) - s.around.back[v] : s.around.lit[v];
+        scenery.lit.push_back(static_cast<float>(lit) / burial_rays);
+        scenery.closed.push_back(s.around.lit[v] == burial_rays);
+    }
     for (std::uint32_t v = 0; v < s.mesh.coarse_vertex_count; ++v)
         if (const auto l = s.luminaire_of(s.mesh.vertices[v].surface, s.mesh.vertices[v].back); l && !scenery.closed[v])
             scenery.luminaire_closed[*l] = 0;

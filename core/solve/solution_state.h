@@ -13,6 +13,7 @@
 #include "core/solve/hierarchy_field.h"
 #include "core/solve/hierarchy_final.h"
 #include "core/solve/hierarchy_view.h"
+#include "core/solve/light_bases.h"
 #include "core/solve/patch_solve.h"
 #include "core/solve/shooting.h"
 #include "core/solve/smoothing.h"
@@ -70,6 +71,7 @@ struct Solution::State {
     };
     std::optional<IndirectLevel> indirect_level; // not in use yet: rows that are there refer to the coarse one
     std::vector<GatherPass> passes;
+    std::uint64_t passes_traced = 0; // in all, also those that are not kept any more: tells rows from other rows
     std::vector<std::vector<RayHit>> kept_hits; // of each pass, while the mesh it was traced on still grows
     std::vector<std::uint8_t> pass_buried;      // all_buried() while it is being traced
     bool pass_open = false;                     // the last pass is being traced
@@ -96,6 +98,18 @@ struct Solution::State {
     std::vector<std::optional<LuminaireIndex>> object_luminaire;
 
     GatherSystem system;
+    std::uint64_t rows_of_system = 0; // passes_traced when it was given its rows
+    LightBases light_bases;           // of these
+    struct BasisInTheMaking {
+        static constexpr std::size_t all_as_they_are = no_index; // in place of one luminaire
+        Exitances exitance;                                      // what it is the solution of
+        Exitances rho;                                           // it is made for
+        std::uint32_t sweeps;
+        ChannelField gathered;
+        GatherSystem system;
+    };
+    std::optional<BasisInTheMaking> basis_in_the_making;
+    bool rays_unjudged = false;       // indirect_deviation is of another solution
     ChannelField gathered_direct;     // irradiance at receivers after one reflection of direct light
     ChannelField indirect_irradiance; // gathered_direct + W U where it is gathered, refreshed after sweeps
     Shooting shooting;
@@ -107,12 +121,22 @@ struct Solution::State {
     enum class ShowLeaves { no, make, cut, light, read, values };
     ShowLeaves show_leaves = ShowLeaves::no; // which part of it is going on
     std::unique_ptr<LeafMesh> leaf_mesh;     // cuts `mesh`, from the first round on
+    // What is shown of the leaves, made on a thread of its own that reads hierarchy, leaf_mesh and mesh: they may not
+    // change meanwhile.
+    struct ShownLeaves {
+        std::shared_ptr<const HierarchyView> view;
+        ChannelField irradiance; // at the mesh's vertices
+    };
+    std::future<ShownLeaves> making_shown;
+    bool sources_wait = false; // new ones, until it is through
     std::uint32_t shown_round = 0;
     std::unique_ptr<FinalGather> final_gather;           // at the mesh's vertices, of the links of this round:
     std::uint32_t final_round = 0;                       //
     FinalGather::Count final_count;                      //
     bool final_counted = false;                          // all its factors
     bool final_done = false;                             // all its rays are traced, or it would be too large
+    ChannelField final_irradiance;                       // what it gathers of the light there is now,
+    std::uint32_t final_cursor = 0;                      // at so many vertices
     std::vector<glm::vec3> vertex_origins;               // of all vertices of the mesh
     std::shared_ptr<const HierarchyView> hierarchy_view; // as of the last round of refinement
     std::unique_ptr<TracedField> traced;                 // of the reference solver
@@ -142,9 +166,9 @@ struct Solution::State {
 
 std::shared_ptr<const Field> compose_field(const Solution::State& state);
 
-// Adds the direct irradiance of the luminaires in `shown` (one a luminaire) at all vertices, per channel. `irradiance`
-// has at least as many rows.
-void read_direct(const Solution::State& state, const std::vector<std::uint8_t>& shown, ChannelField& irradiance);
+// Adds the direct irradiance of luminaires of this exitance at all vertices, per channel; those without any channels are
+// left out. `irradiance` has at least as many rows.
+void read_direct(const Solution::State& state, const Exitances& exitance, ChannelField& irradiance);
 
 // Reflected radiosity per channel at a point of a coarse element: rho (H_direct + H_indirect). `radiosity` has one
 // entry a channel, or stops before the trichromatic ones.

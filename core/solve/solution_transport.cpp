@@ -13,13 +13,17 @@ constexpr std::uint32_t first_direct_levels = 2; // before the first refined pic
 
 using State = Solution::State;
 
+float cell_of(const State& s) {
+    return static_cast<float>(receiver_cell * s.element_size);
+}
+
 // Cuts the mesh where indirect light needs more receivers than the coarse vertices; true at the end.
 bool refine_indirect(State& s, const std::atomic<bool>& cancel) {
     if (s.indirect_level || s.refined) return true;
     if (!s.indirect_refinement)
         s.indirect_refinement = std::make_unique<IndirectRefinement>(
             *s.world, s.mesh, *s.direct, s.buried, s.around.distance,
-            IndirectParams{.smallest_element = s.direct->samples().cell,
+            IndirectParams{.smallest_element = std::max(cell_of(s), s.direct->samples().cell),
                            .smallest_edge = static_cast<float>(s.element_size / 8),
                            .most_vertices =
                                s.mesh.coarse_vertex_count + contact_vertices + s.receivers.count() / contact_share});
@@ -68,8 +72,9 @@ void step_mesh(State& s) {
     s.around.back = s.around.near = s.around.lit;
     s.around.distance.assign(s.mesh.coarse_vertex_count, 0);
     s.around.near_distance = static_cast<float>(near_share * s.element_size);
-    LightSamples samples = make_light_samples(*s.scene, s.mesh, *s.world, s.origins,
-                                              static_cast<float>(sample_cell * s.element_size), most_samples);
+    LightSamples samples;
+    if (is_sampled(s.mesh.coarse_vertex_count))
+        samples = make_light_samples(*s.scene, s.mesh, *s.world, s.origins, cell_of(s), most_samples);
     const DirectParams params{.smallest_edge = static_cast<float>(s.element_size / 8),
                               .element_size = static_cast<float>(s.element_size),
                               .most_vertices = s.mesh.coarse_vertex_count + fine_vertices(s.mesh.coarse_vertex_count)};
@@ -93,14 +98,17 @@ void step_light(State& s, const std::atomic<bool>& cancel) {
 
 void step_burial(State& s, const std::atomic<bool>& cancel) {
     const LightSamples& samples = s.direct->samples();
-    if (s.cursor < samples.count()) {
-        if (!run_slice(s.cursor, samples.count(), 64, cancel, [&](std::uint32_t first, std::uint32_t last) {
-                for (std::uint32_t i = first; i < last; ++i)
-                    find_buried(*s.world, s.mesh, s.origins, samples.vertex[i], samples.vertex[i] + 1, s.buried,
-                                &s.around);
+    const bool sampled = samples.count() > 0;
+    const std::uint32_t places = sampled ? samples.count() : s.mesh.coarse_vertex_count;
+    if (s.cursor < places) {
+        if (!run_slice(s.cursor, places, 64, cancel, [&](std::uint32_t first, std::uint32_t last) {
+                for (std::uint32_t i = first; i < last; ++i) {
+                    const std::uint32_t v = sampled ? samples.vertex[i] : i;
+                    find_buried(*s.world, s.mesh, s.origins, v, v + 1, s.buried, &s.around);
+                }
             }))
             return;
-        for (std::uint32_t v = 0; v < s.mesh.coarse_vertex_count; ++v) {
+        for (std::uint32_t v = 0; sampled && v < s.mesh.coarse_vertex_count; ++v) {
             const std::uint32_t of = samples.vertex[samples.of_vertex[v]];
             s.buried[v] = s.buried[of];
             s.around.lit[v] = s.around.lit[of], s.around.back[v] = s.around.back[of];
@@ -109,8 +117,8 @@ void step_burial(State& s, const std::atomic<bool>& cancel) {
     }
     s.indirect_distance = s.around.distance;
     if (!find_overlap(s.mesh, *s.world, s.buried, cancel, s.overlap)) return;
-    s.status.rays += std::uint64_t(samples.count()) * burial_rays + s.mesh.coarse_element_count;
-    s.receivers = receivers_of(samples, s.buried);
+    s.status.rays += std::uint64_t(places) * burial_rays + s.mesh.coarse_element_count;
+    s.receivers = sampled ? receivers_of(samples, s.buried) : make_receivers(*s.scene, s.mesh, s.buried, cell_of(s));
     s.status.matrix_patches = matrix_size(s.mesh, s.scene->solve.matrix_memory).patches;
     s.status.matrix_bytes = matrix_bytes(s.status.matrix_patches);
     s.status.receivers = s.receivers.count();
@@ -120,9 +128,15 @@ void step_burial(State& s, const std::atomic<bool>& cancel) {
 bool ask_probes(State& s, const std::atomic<bool>& cancel) {
     if (s.probes.complete()) return true;
     const std::vector<std::uint8_t> buried = s.all_buried();
-    if (s.probes.points.empty())
-        place_probes(*s.world, s.mesh, *s.direct, buried, probe_count, s.scene->solve.seed, s.probes);
-    if (!trace_probes(*s.world, s.mesh, *s.direct, buried, s.scene->solve.seed, cancel, s.probes)) return false;
+    const std::uint32_t seed = s.scene->solve.seed;
+    if (s.probes.points.empty()) {
+        std::vector<std::uint32_t> luminaire(s.mesh.coarse_element_count, no_index);
+        for (std::uint32_t e = 0; e < luminaire.size(); ++e)
+            if (const auto l = s.luminaire_of(s.mesh.coarse_surface[e], s.mesh.coarse_back[e] != 0))
+                luminaire[e] = static_cast<std::uint32_t>(*l);
+        place_probes(*s.world, s.mesh, *s.direct, buried, std::move(luminaire), probe_count(s.mesh), seed, s.probes);
+    }
+    if (!trace_probes(*s.world, s.mesh, *s.direct, buried, seed, cancel, s.probes)) return false;
     s.status.rays +=
         s.probes.points.size() * (ErrorProbes::rays + ErrorProbes::shadow_rays * s.direct->emitter_count());
     return true;
@@ -134,8 +148,8 @@ void step_refine(State& s, const std::atomic<bool>& cancel) {
     // Gathering shows what the first levels give; the finer ones cost more rays and change less.
     const bool gathering = s.solver() == SolverKind::gathering;
     const std::uint32_t levels = gathering && !s.refined ? first_direct_levels : no_index;
-    const bool done =
-        refine_indirect(s, cancel) && s.direct->light_vertices(cancel) && s.direct->refine(cancel, levels);
+    const bool done = refine_indirect(s, cancel) && s.direct->light_vertices(cancel) &&
+                      s.direct->refine(cancel, levels) && s.direct->light_vertices(cancel);
     if (s.mesh.vertices.size() != before) publish_mesh(s);
     if (!done) return;
     // It asks its probes last: they tell how wrong the light is, and make none of it.

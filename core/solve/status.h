@@ -36,7 +36,10 @@ struct SolveStatus {
     double residual = 1;              // |r| / |E| of the system solved, worst channel; hierarchical: change in a sweep
     std::uint32_t matrix_patches = 0; // that a full matrix would have here; known once there is a mesh
     std::uint64_t form_factor_cost = 0; // rays, pixels or kernel evaluations, for form factors between patches
-    std::uint64_t matrix_bytes = 0;     // and the memory it takes, taken only by the solvers that keep one
+    // Pairs of patches that face each other; those for which the method is outside its region (for item buffers: below
+    // their resolution); those that no pixel met though they see each other.
+    std::uint64_t form_factor_pairs = 0, form_factors_warned = 0, form_factors_missed = 0;
+    std::uint64_t matrix_bytes = 0; // and the memory it takes, taken only by the solvers that keep one
     std::uint32_t links = 0, link_elements = 0, link_levels = 0, link_rounds = 0; // hierarchical
     std::uint64_t final_gather_bytes = 0; // hierarchical: memory of the last gather, stated before it is taken
     double error_bound = 0;               // hierarchical: mean relative error if all links err the same way

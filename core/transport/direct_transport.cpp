@@ -16,8 +16,9 @@ namespace lueur {
 namespace {
 
 constexpr std::uint32_t most_sketched = 32; // luminaires that a first guess asks
-constexpr float small_size = 0.25f;         // of the coarse element size: what is smaller counts by its area
-constexpr float long_edge_share = 0.4f;     // of the coarse element size: longer edges are looked at in any case
+constexpr float look_share = 0.3f;      // of what a place counts for, where one of many luminaires is only looked at
+constexpr float small_size = 0.25f;     // of the coarse element size: what is smaller counts by its area
+constexpr float long_edge_share = 0.4f; // of the coarse element size: longer edges are looked at in any case
 
 } // namespace
 
@@ -32,35 +33,38 @@ DirectTransport::DirectTransport(const World& world, Mesh& mesh, std::vector<Emi
     weight_ = guessed_exitances(emitters_);
     buried_.assign(mesh_.vertices.size(), 0);
     rows_.resize(mesh_.vertices.size() - sampled_vertices() + samples_.count());
-    follow_rows();
+    known_.assign(rows_.size(), 0);
+    guessed_.assign(mesh_.vertices.size(), 0);
+    follow_places();
 }
 
-// After the mesh or all rows have changed.
-void DirectTransport::follow_rows() {
+// Where rays start, and what each row stands for.
+void DirectTransport::follow_places() {
     origins_ = ray_origins(mesh_, world_.epsilon());
     const std::vector<float> area = vertex_areas(mesh_);
     row_area_.assign(rows_.size(), 0);
     for (std::uint32_t v = 0; v < area.size(); ++v)
         row_area_[v < sampled_vertices() ? samples_.of_vertex[v] : row_of(v)] += area[v];
+}
+
+void DirectTransport::read_guessed_light() {
     std::vector<float> at_rows;
+    at_rows.reserve(rows_.size());
     for (const DirectRow& row : rows_) at_rows.push_back(guessed_light(row));
     guessed_.assign(mesh_.vertices.size(), 0);
     read_rows(at_rows, 1, guessed_);
 }
 
 // size: m, across what this light stands for.
-void DirectTransport::light(glm::vec3 origin, glm::vec3 normal, float size, float* factors, float* deviations) const {
-    const float part = params_.element_size > 0 ? std::min(1.0f, size / (small_size * params_.element_size)) : 1;
-    const float share = part * part;
-    rays_.fetch_add(direct_form_factors(world_, emitters_, weight_, origin, normal, share, factors, deviations),
-                    std::memory_order_relaxed);
-}
-
-DirectRow DirectTransport::row_at(glm::vec3 origin, glm::vec3 normal, float size) const {
+DirectRow DirectTransport::row_at(glm::vec3 origin, glm::vec3 normal, float size, Care care) const {
     static thread_local std::vector<float> factors, deviations;
     factors.resize(emitters_.size());
     deviations.resize(emitters_.size());
-    light(origin, normal, size, factors.data(), deviations.data());
+    const float part = params_.element_size > 0 ? std::min(1.0f, size / (small_size * params_.element_size)) : 1;
+    const float share = part * part * (care == Care::looked_at && emitters_.size() > 1 ? look_share : 1);
+    rays_.fetch_add(
+        direct_form_factors(world_, emitters_, weight_, origin, normal, share, factors.data(), deviations.data()),
+        std::memory_order_relaxed);
     std::size_t seen = 0;
     for (std::size_t l = 0; l < emitters_.size(); ++l) seen += factors[l] != 0 || deviations[l] != 0;
     DirectRow row;
@@ -146,35 +150,38 @@ bool DirectTransport::sketch(const std::atomic<bool>& cancel) {
         rays_.fetch_add(std::uint64_t(last - first) * std::min<std::size_t>(most_sketched, emitters_.size()),
                         std::memory_order_relaxed);
     });
-    if (done) follow_rows();
+    if (done) read_guessed_light();
     return done;
 }
 
 bool DirectTransport::light_vertices(const std::atomic<bool>& cancel) {
     const std::uint32_t count = row_count();
-    if (followed_rows_ == count) return true;
+    if (lit_rows_ == count && !spread_pending_) return true;
     const bool done = run_slice(row_cursor_, count, 32, cancel, [&](std::uint32_t first, std::uint32_t last) {
         for (std::uint32_t r = first; r < last; ++r) {
             const std::uint32_t v = vertex_of(r);
-            rows_[r] = row_at(origins_[v], mesh_.vertices[v].normal, std::sqrt(row_area_[r]));
+            if (!known_[r])
+                rows_[r] = row_at(origins_[v], mesh_.vertices[v].normal, std::sqrt(row_area_[r]), Care::kept);
             buried_[v] = 0;
             if (guessed_light(rows_[r]) == 0) find_buried(world_, mesh_, origins_, v, v + 1, buried_);
         }
     });
     if (!done) return false;
+    lit_rows_ = count;
     for (std::uint32_t v = 0; v < sampled_vertices(); ++v) buried_[v] = buried_[samples_.vertex[samples_.of_vertex[v]]];
-    follow_rows();
-    followed_rows_ = count;
+    read_guessed_light();
     if (floor_ == 0 && count > 0) {
         double sum = 0;
         for (const float light : guessed_) sum += light;
         floor_ = static_cast<float>(0.25 * sum / double(guessed_.size())); // darker: a relative error is not seen
+    }
+    if (spread_pending_) {
         spread_deviations();
+        spread_pending_ = false;
     }
     return true;
 }
 
-// Edges shorter than a group is wide, between vertices that read samples, are too short to be looked at.
 void DirectTransport::begin_level() {
     // A short edge whose ends agree hides no more than a shadow thinner than itself; one shorter than a group is wide,
     // between vertices that read samples, is not looked at.
@@ -204,28 +211,22 @@ void DirectTransport::split_bent() {
     }
     const std::uint32_t before = static_cast<std::uint32_t>(mesh_.vertices.size());
     edges_.split(bent, params_.most_vertices);
-    // New vertices at middles that were looked at are lit already; the others (made for conformity) are lit now.
+    const std::uint32_t first_row = row_count();
+    follow_vertices();
     const std::uint32_t after = static_cast<std::uint32_t>(mesh_.vertices.size());
-    rows_.resize(rows_.size() + (after - before));
-    buried_.resize(after, 0);
-    follow_rows();
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(before, after, 16),
-                      [&](const tbb::blocked_range<std::uint32_t>& range) {
-                          for (std::uint32_t v = range.begin(); v < range.end(); ++v) {
-                              const std::uint32_t looked_at = edges_.edge_of(v), r = row_of(v);
-                              rows_[r] = looked_at != no_index
-                                             ? std::move(edge_rows_[looked_at])
-                                             : row_at(origins_[v], mesh_.vertices[v].normal, std::sqrt(row_area_[r]));
-                              guessed_[v] = guessed_light(rows_[r]);
-                              if (guessed_[v] == 0) find_buried(world_, mesh_, origins_, v, v + 1, buried_);
-                          }
-                      });
-    row_cursor_ = followed_rows_ = row_count();
+    // Of a single luminaire a new vertex at a middle that was looked at is lit already; the others are lit now.
+    row_cursor_ = first_row;
+    if (emitters_.size() == 1)
+        for (std::uint32_t v = before; v < after; ++v)
+            if (const std::uint32_t looked_at = edges_.edge_of(v); looked_at != no_index) {
+                rows_[row_of(v)] = std::move(edge_rows_[looked_at]);
+                known_[row_of(v)] = 1;
+            }
     refined_ = after == before || after >= params_.most_vertices;
     if (refined_) {
         misfit_ = misfit_count_ > 0 ? std::sqrt(misfit_sum_ / double(misfit_count_)) : 0;
         edge_rows_ = {};
-        spread_deviations();
+        spread_pending_ = true;
     }
 }
 
@@ -280,14 +281,24 @@ void DirectTransport::spread_deviations() {
 }
 
 void DirectTransport::follow_mesh() {
+    follow_vertices();
+    if (!refined_) edges_.follow_mesh(); // refine() goes on from here
+    level_begun_ = false;
+}
+
+// New vertices have what their parents have.
+void DirectTransport::follow_vertices() {
     const std::uint32_t before = static_cast<std::uint32_t>(buried_.size());
     const std::uint32_t count = static_cast<std::uint32_t>(mesh_.vertices.size());
     rows_.resize(rows_.size() + (count - before));
+    known_.resize(rows_.size(), 0);
     buried_.resize(count, 0);
+    guessed_.resize(count, 0);
     std::vector<float> factors(emitters_.size()), deviations(emitters_.size());
     for (std::uint32_t v = before; v < count; ++v) {
         const auto& p = mesh_.vertices[v].parents;
         buried_[v] = buried_[p[0]] && buried_[p[1]];
+        guessed_[v] = 0.5f * (guessed_[p[0]] + guessed_[p[1]]);
         std::ranges::fill(factors, 0.0f);
         std::ranges::fill(deviations, 0.0f);
         for (const std::uint32_t parent : p)
@@ -299,9 +310,7 @@ void DirectTransport::follow_mesh() {
         for (std::uint32_t l = 0; l < emitters_.size(); ++l)
             if (factors[l] != 0 || deviations[l] != 0) row.push_back({l, factors[l], deviations[l]});
     }
-    follow_rows();
-    if (!refined_) edges_.follow_mesh(); // refine() goes on from here
-    level_begun_ = false;
+    follow_places();
 }
 
 bool DirectTransport::refine(const std::atomic<bool>& cancel, std::uint32_t levels) {
@@ -318,7 +327,7 @@ bool DirectTransport::refine(const std::atomic<bool>& cancel, std::uint32_t leve
                                         const EdgeRefinement::Place middle = edges_.middle(edge, epsilon);
                                         const float length = glm::distance(mesh_.vertices[edge.a].position,
                                                                            mesh_.vertices[edge.b].position);
-                                        edge_rows_[e] = row_at(middle.origin, middle.normal, length);
+                                        edge_rows_[e] = row_at(middle.origin, middle.normal, length, Care::looked_at);
                                     }
                                 });
     if (!done) return false;

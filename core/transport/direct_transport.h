@@ -46,7 +46,8 @@ public:
     // Each brings its stage forward by one time slice; true when the stage is done.
     bool sketch(const std::atomic<bool>& cancel);         // a first guess of D at the vertices there are, one ray each
     bool light_vertices(const std::atomic<bool>& cancel); // D at the vertices there are
-    // Then split, level by level, at most until there have been so many, and light the new ones.
+    // Then split, level by level, at most until there have been so many. light_vertices() lights the new ones: call it
+    // to its end before refine(), and once more after it.
     bool refine(const std::atomic<bool>& cancel, std::uint32_t levels = no_index);
     bool refined() const { return refined_ || emitters_.empty(); } // all levels
 
@@ -88,11 +89,13 @@ public:
     double progress() const; // of the stage that runs, 0..1
 
 private:
-    void light(glm::vec3 origin, glm::vec3 normal, float size, float* factors, float* deviations) const;
+    enum class Care { looked_at, kept }; // whether light bends somewhere is told by less than what is shown there
     DirectRow sketched_row(std::uint32_t v) const;
-    DirectRow row_at(glm::vec3 origin, glm::vec3 normal, float size) const;
+    DirectRow row_at(glm::vec3 origin, glm::vec3 normal, float size, Care care) const;
     float guessed_light(const DirectRow& row) const;
-    void follow_rows(); // what all vertices read of them
+    void follow_vertices();
+    void follow_places();
+    void read_guessed_light();
     void spread_deviations();
     void begin_level();
     void split_bent();
@@ -114,15 +117,17 @@ private:
     std::vector<DirectRow> edge_rows_;
     std::vector<float> weight_; // guessed_exitances
     std::vector<DirectRow> rows_;
-    std::vector<float> row_area_; // m^2 that each row stands for
-    std::vector<float> guessed_;  // of each vertex
+    std::vector<std::uint8_t> known_; // of each row: lit when its edge was looked at
+    std::vector<float> row_area_;     // m^2 that each row stands for
+    std::vector<float> guessed_;      // of each vertex
     std::vector<std::uint8_t> buried_;
     std::vector<glm::vec3> origins_;
-    std::uint32_t sketch_cursor_ = 0, row_cursor_ = 0, followed_rows_ = 0;
+    std::uint32_t sketch_cursor_ = 0, row_cursor_ = 0, lit_rows_ = 0;
 
     std::uint32_t edge_cursor_ = 0;
     bool level_begun_ = false, refined_ = false;
-    std::uint32_t level_ = 0; // so many are done
+    std::uint32_t level_ = 0;    // so many are done
+    bool spread_pending_ = true; // spread_deviations, when the vertices are lit
     float floor_ = 0;
     double misfit_ = 0, misfit_sum_ = 0;
     std::uint64_t misfit_count_ = 0;

@@ -80,7 +80,9 @@ PatchScene make_element_scene(const Mesh& mesh, const World& world); // its coar
 struct FormFactorCost {
     std::uint64_t cost = 0; // as FormFactorEstimate::cost
     double seconds = 0;
-    std::uint64_t warned = 0; // pairs (item buffers) for which the method gave a warning
+    std::uint64_t pairs = 0;  // that face each other
+    std::uint64_t warned = 0; // pairs for which the method is outside its region; item buffers: below their resolution
+    std::uint64_t missed = 0; // pairs that no pixel of an item buffer met, though their middles see each other
 };
 
 // F_ij from patch i to all, row[j]; all of it is written. hemicube and hemisphere make whole item buffers; the others

@@ -38,6 +38,9 @@ FormFactorSettings complete(FormFactorMethod method, FormFactorSettings settings
 // inside. Complete settings.
 std::string region_warning(const PolygonPair& pair, FormFactorMethod method, const FormFactorSettings& settings);
 
+// Whether `to` is too small for the pixels of an item buffer at the middle of `from`.
+bool is_below_pixels(const PlanarPolygon& from, const PlanarPolygon& to, FormFactorMethod method, int resolution);
+
 // Numbers in [0, 1) for one seed and index, the same everywhere (splitmix64: Steele, Lea & Flood 2014).
 class RandomStream {
 public:

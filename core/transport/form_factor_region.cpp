@@ -25,12 +25,19 @@ double narrowest(const PolygonPair& pair) {
 }
 
 // Seen from the middle of `from`: the lesser angular width of `to`, foreshortened, about; rad.
-double angular_width(const PolygonPair& pair) {
-    const glm::dvec3 d = centre(pair.to) - centre(pair.from);
-    const double r = glm::length(d), facing = std::abs(glm::dot(d, pair.to.normal)) / r, across = width(pair.to),
-                 along = pair.to.area / across;
-    return std::min({across, along, std::max(across * facing, pair.to.area * facing / along)}) / r;
+double angular_width(const PlanarPolygon& from, const PlanarPolygon& to) {
+    const glm::dvec3 d = centre(to) - centre(from);
+    const double r = glm::length(d), facing = std::abs(glm::dot(d, to.normal)) / r, across = width(to),
+                 along = to.area / across;
+    return std::min({across, along, std::max(across * facing, to.area * facing / along)}) / r;
 }
+
+// The pixels of a hemicube are 2 / resolution at distance 1, the cells of a hemisphere as large on average.
+double pixel_width(FormFactorMethod method, int resolution) {
+    return (method == FormFactorMethod::hemicube ? 2 : std::sqrt(2 * std::numbers::pi)) / resolution;
+}
+
+constexpr double pixels_enough = 2; // across what is seen
 
 std::string near_elements(const PolygonPair& pair, int count, double apart, bool of_both) {
     const double size = of_both ? std::max(element_size(pair.from, count), element_size(pair.to, count))
@@ -46,9 +53,9 @@ std::string near_elements(const PolygonPair& pair, int count, double apart, bool
 }
 
 std::string below_pixels(const PolygonPair& pair, double pixel, int needed_resolution_at) {
-    const double seen = angular_width(pair);
-    if (seen >= 2 * pixel) return {};
-    const double enough = std::ceil(needed_resolution_at * 2 * pixel / seen);
+    const double seen = angular_width(pair.from, pair.to);
+    if (seen >= pixels_enough * pixel) return {};
+    const double enough = std::ceil(needed_resolution_at * pixels_enough * pixel / seen);
     if (enough > 4096)
         return fmt::format("the patch is {:.2g} pixels wide and may be missed: analytic is needed", seen / pixel);
     return fmt::format("the patch is {:.2g} pixels wide and may be missed: resolution {:.0f} is needed", seen / pixel,
@@ -56,6 +63,10 @@ std::string below_pixels(const PolygonPair& pair, double pixel, int needed_resol
 }
 
 } // namespace
+
+bool is_below_pixels(const PlanarPolygon& from, const PlanarPolygon& to, FormFactorMethod method, int resolution) {
+    return angular_width(from, to) < pixels_enough * pixel_width(method, resolution);
+}
 
 std::string region_warning(const PolygonPair& pair, FormFactorMethod method, const FormFactorSettings& settings) {
     if (!pair.faces()) return {};
@@ -91,9 +102,7 @@ std::string region_warning(const PolygonPair& pair, FormFactorMethod method, con
     }
     case FormFactorMethod::hemicube:
     case FormFactorMethod::hemisphere: {
-        const bool cube = method == FormFactorMethod::hemicube;
-        // The pixels of a hemicube are 2 / resolution at distance 1, the cells of a hemisphere as large on average.
-        const double pixel = cube ? 2.0 / settings.resolution : std::sqrt(2 * std::numbers::pi) / settings.resolution;
+        const double pixel = pixel_width(method, settings.resolution);
         return first_of(first_of(near_elements(pair, settings.samples, apart, false),
                                  below_pixels(pair, pixel, settings.resolution)),
                         thin(pixel * glm::length(centre(pair.to) - centre(pair.from)) / 2, "pixels"));

@@ -88,6 +88,25 @@ bool behind(const PlanarPolygon& polygon, const PlanarPolygon& other) {
                                 [&](const glm::dvec3& p) { return glm::dot(other.normal, p - other.corners[0]) > 0; });
 }
 
+// What of the scene is too small for the pixels of a row that is made, and what they have missed.
+void count_below_pixels(const PatchScene& scene, std::uint32_t i, FormFactorMethod method, int resolution,
+                        std::span<const float> row, FormFactorCost& cost) {
+    const PlanarPolygon& patch = scene.patches[i];
+    const glm::dvec3 middle = centre(patch) + double(scene.world->epsilon()) * patch.normal;
+    for (std::uint32_t j = 0; j < scene.size(); ++j) {
+        const PlanarPolygon& other = scene.patches[j];
+        if (j == i || !(other.area > 0) || behind(other, patch) || behind(patch, other)) continue;
+        ++cost.pairs;
+        if (!is_below_pixels(patch, other, method, resolution)) continue;
+        ++cost.warned;
+        if (row[j] > 0) continue;
+        const glm::dvec3 there = centre(other) + double(scene.world->epsilon()) * other.normal - middle;
+        if (glm::dot(there, patch.normal) <= 0 || glm::dot(there, other.normal) >= 0) continue;
+        cost.missed += !scene.world->occluded({glm::vec3(middle), glm::vec3(there), 0, 1 - 1e-5f});
+        ++cost.cost;
+    }
+}
+
 } // namespace
 
 PatchScene make_patch_scene(const Mesh& mesh, const World& world) {
@@ -158,6 +177,7 @@ void form_factor_row(const PatchScene& scene, std::uint32_t i, FormFactorMethod 
             else
                 hemisphere_row(scene, i, settings, sums, cost);
             std::ranges::transform(sums, row.begin(), [](double sum) { return static_cast<float>(sum); });
+            count_below_pixels(scene, i, method, settings.resolution, row, cost);
         } else {
             for (std::uint32_t j = 0; j < scene.size(); ++j) {
                 const PlanarPolygon& other = scene.patches[j];
@@ -167,6 +187,7 @@ void form_factor_row(const PatchScene& scene, std::uint32_t i, FormFactorMethod 
                 const FormFactorEstimate found = form_factor(patch, other, {{}, scene.world}, method, settings);
                 row[j] = static_cast<float>(found.value);
                 cost.cost += found.cost;
+                ++cost.pairs;
                 cost.warned += !found.warning.empty();
             }
         }

@@ -32,12 +32,16 @@ std::uint32_t pick_vertex(const glm::uvec3& v, glm::vec3 w, const std::vector<st
 
 void find_buried(const World& world, const Mesh& mesh, const std::vector<glm::vec3>& origins, std::uint32_t first,
                  std::uint32_t last, std::vector<std::uint8_t>& buried, Surroundings* around) {
+    std::array<glm::vec3, burial_rays> directions;
+    std::array<Hit, burial_rays> hits;
     for (std::uint32_t i = first; i < last; ++i) {
         const Frame frame(mesh.vertices[i].normal);
         std::uint8_t back_faces = 0, lit = 0, near = 0;
         float nearness = 0;
-        for (std::uint32_t k = 0; k < burial_rays; ++k) {
-            const Hit hit = world.closest({origins[i], frame.world(cosine_direction(r2_point(k, {0, 0})))});
+        for (std::uint32_t k = 0; k < burial_rays; ++k)
+            directions[k] = frame.world(cosine_direction(r2_point(k, {0, 0})));
+        world.closest(origins[i], directions, hits);
+        for (const Hit& hit : hits) {
             back_faces = static_cast<std::uint8_t>(back_faces + hit.back_face);
             lit = static_cast<std::uint8_t>(lit + (hit.element != no_index));
             near = static_cast<std::uint8_t>(near + (around && hit.any() && hit.t < around->near_distance));
@@ -77,6 +81,8 @@ std::uint64_t trace_gather_rays(const World& world, const Mesh& mesh, const std:
     const std::size_t known = out.hits.size() / rays_per_pass;
     std::uint64_t traced = 0;
     std::array<RayHit, rays_per_pass> fresh;
+    std::array<glm::vec3, rays_per_pass> directions;
+    std::array<Hit, rays_per_pass> met;
     for (std::uint32_t i = first; i < last; ++i) {
         if (receivers.buried[i]) continue; // all its rays stay outside
         const std::uint32_t vertex = receivers.vertex[i];
@@ -85,11 +91,10 @@ std::uint64_t trace_gather_rays(const World& world, const Mesh& mesh, const std:
         if (i >= known || hits[0].element == RayHit::untraced) {
             const Frame frame(mesh.vertices[vertex].normal);
             const glm::vec2 offset = random_offset(hash(seed, pass % independent_sets), i);
-            for (std::uint32_t k = 0; k < rays_per_pass; ++k) {
-                const Hit hit =
-                    world.closest({origins[vertex], frame.world(cosine_direction(r2_point(first_point + k, offset)))});
-                hits[k] = {hit.element, hit.b1, hit.b2};
-            }
+            for (std::uint32_t k = 0; k < rays_per_pass; ++k)
+                directions[k] = frame.world(cosine_direction(r2_point(first_point + k, offset)));
+            world.closest(origins[vertex], directions, met);
+            for (std::size_t k = 0; k < rays_per_pass; ++k) hits[k] = {met[k].element, met[k].b1, met[k].b2};
             traced += rays_per_pass;
         }
         for (std::size_t k = 0; k < rays_per_pass; ++k) {

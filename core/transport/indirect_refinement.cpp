@@ -1,6 +1,7 @@
 #include "core/transport/indirect_refinement.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <tbb/blocked_range.h>
@@ -50,8 +51,11 @@ IndirectRefinement::Seen IndirectRefinement::gather(glm::vec3 origin, glm::vec3 
     const Frame frame(normal);
     double light = 0, nearness = 0;
     int back_faces = 0;
-    for (std::uint32_t k = 0; k < rays_a_place; ++k) {
-        const Hit hit = world_.closest({origin, frame.world(cosine_direction(r2_point(k, {0, 0})))});
+    std::array<glm::vec3, rays_a_place> directions;
+    std::array<Hit, rays_a_place> hits;
+    for (std::uint32_t k = 0; k < rays_a_place; ++k) directions[k] = frame.world(cosine_direction(r2_point(k, {0, 0})));
+    world_.closest(origin, directions, hits);
+    for (const Hit& hit : hits) {
         if (!hit.any()) continue;
         nearness += 1 / std::max(double(hit.t), 1e-20);
         back_faces += hit.back_face;
@@ -69,7 +73,7 @@ IndirectRefinement::Seen IndirectRefinement::gather(glm::vec3 origin, glm::vec3 
 }
 
 bool IndirectRefinement::is_close(std::uint32_t a, std::uint32_t b) const {
-    if (buried_[a] && buried_[b]) return false;
+    // A bar of a picture frame has its ends in its neighbours and its back in the wall: only what lies between is seen.
     if (buried_[a] || buried_[b]) return true;
     return glm::distance(mesh_.vertices[a].position, mesh_.vertices[b].position) >
            close_edge * std::min(distance_[a], distance_[b]);
@@ -96,9 +100,14 @@ void IndirectRefinement::split_bent() {
         float light = 0, direct = 0, ends = 0;
         for (const std::uint32_t v : {edges[e].a, edges[e].b})
             if (!buried_[v]) light += light_[v], direct += direct_[v], ends += 1;
+        if (seen_[e].buried) continue;
+        if (ends == 0) {
+            bent[e] = 1; // nothing is known of what is seen here
+            continue;
+        }
         const float guess = light / ends, here = seen_[e].light;
         const float misfit = std::abs(here - guess) / std::max(floor_, here + direct / ends);
-        if (misfit > params_.tolerance && !seen_[e].buried) bent[e] = misfit;
+        if (misfit > params_.tolerance) bent[e] = misfit;
     }
     const std::uint32_t before = static_cast<std::uint32_t>(mesh_.vertices.size());
     edges_.split(bent, params_.most_vertices);

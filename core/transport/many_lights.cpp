@@ -10,10 +10,15 @@ namespace {
 
 // Of the light that arrives: what counts for less is looked at less closely, so that each errs by about a hundredth of
 // all light where its shadow's edge falls.
-constexpr float two_cuts_from = 0.25f, one_cut_from = 0.12f, whole_cells_from = 0.04f, probes_from = 0.02f;
+constexpr float two_cuts_from = 0.4f, one_cut_from = 0.2f, whole_cells_from = 0.06f, probes_from = 0.03f;
+// Where a shadow is refined its vertices are small: they must not be less sure of it than their neighbours, or what
+// bends is the error and is refined further (specks around the gallery's frames).
+constexpr float least_size_share = 0.5f;
 constexpr float shadow_share = 0.1f; // of the light there would be without shadows: darker is not told from dark
 // One ray decides for all of a luminaire; where its shadow's edge lies is not known, and few receivers are in one.
 constexpr float one_ray_deviation = 0.1f;
+// However small the receiver is: a speck that is seen is one of a luminaire that counts.
+constexpr float one_ray_share = 0.1f;
 constexpr float tail_share = 0.05f; // of all light, by the faintest luminaires together
 constexpr std::size_t fewest_in_tail = 8, tail_rays = 4;
 
@@ -137,9 +142,9 @@ std::uint64_t direct_form_factors(const World& world, std::span<const Emitter> e
         for (const Candidate& c : shining) visible += c.seen ? c.light : 0;
     }
     for (const Candidate& c : shining) {
-        const float counts = size_share * c.light / visible;
+        const float counts = std::max(size_share, least_size_share) * c.light / visible;
         float f = 0, deviation = 0;
-        if (counts < probes_from && candidates.size() > 1) {
+        if (counts < probes_from && c.light < one_ray_share * visible && candidates.size() > 1) {
             f = c.seen ? unshadowed_form_factor(*c.emitter, origin, normal) : 0;
             deviation = one_ray_deviation * f;
         } else

@@ -1,6 +1,45 @@
 #include "core/transport/receivers.h"
 
+#include <cmath>
+#include <map>
+#include <tuple>
+
 namespace lueur {
+
+Receivers make_receivers(const Scene& scene, const Mesh& mesh, const std::vector<std::uint8_t>& buried, float cell) {
+    struct Cluster {
+        glm::vec3 sum{0};
+        std::uint32_t count = 0;
+    };
+    using Key = std::tuple<std::uint32_t, int, int, int, int, int, int, bool>;
+    std::map<Key, std::uint32_t> known;
+    std::vector<Cluster> clusters;
+    Receivers receivers;
+    receivers.of_vertex.resize(mesh.coarse_vertex_count);
+    for (std::uint32_t v = 0; v < mesh.coarse_vertex_count; ++v) {
+        const MeshVertex& vertex = mesh.vertices[v];
+        const glm::ivec3 place(glm::floor(vertex.position / cell));
+        const glm::ivec3 look(glm::round(2.0f * vertex.normal));
+        const auto object = static_cast<std::uint32_t>(at(scene.geometry->surfaces[vertex.surface].object));
+        const Key key{object, place.x, place.y, place.z, look.x, look.y, look.z, buried[v] != 0};
+        const auto [found, fresh] = known.try_emplace(key, static_cast<std::uint32_t>(clusters.size()));
+        if (fresh) clusters.push_back({});
+        clusters[found->second].sum += vertex.position;
+        ++clusters[found->second].count;
+        receivers.of_vertex[v] = found->second;
+    }
+    // The vertex nearest to the middle stands for its cluster.
+    receivers.vertex.assign(clusters.size(), no_index);
+    std::vector<float> nearest(clusters.size(), 1e30f);
+    for (std::uint32_t v = 0; v < mesh.coarse_vertex_count; ++v) {
+        const std::uint32_t r = receivers.of_vertex[v];
+        const glm::vec3 d = mesh.vertices[v].position - clusters[r].sum / float(clusters[r].count);
+        const float distance = glm::dot(d, d);
+        if (distance < nearest[r]) nearest[r] = distance, receivers.vertex[r] = v;
+    }
+    for (const std::uint32_t v : receivers.vertex) receivers.buried.push_back(buried[v]);
+    return receivers;
+}
 
 Receivers receivers_of(const LightSamples& samples, const std::vector<std::uint8_t>& buried) {
     Receivers receivers{samples.of_vertex, samples.vertex, {}};

@@ -33,6 +33,17 @@ private:
     std::uint32_t calls_ = 0;
 };
 
+// Calls f(i) for i from cursor on, `block` of them between two looks at the clock, and moves the cursor past what is
+// done. What is done does not depend on the time. True at the end.
+template <typename F>
+bool run_slice(std::size_t& cursor, std::size_t end, std::size_t block, TimeSlice& slice, const F& f) {
+    while (cursor < end) {
+        for (const std::size_t last = std::min(end, cursor + block); cursor < last; ++cursor) f(cursor);
+        if (slice.over()) break;
+    }
+    return cursor >= end;
+}
+
 // Calls f(first, last) for blocks of [cursor, end) in parallel until the end, `step_seconds` are over, or `cancel` is
 // set; moves the cursor past what is done. What is done does not depend on the time. True at the end.
 template <typename F>

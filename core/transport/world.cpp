@@ -2,7 +2,11 @@
 
 #include <algorithm>
 
+#include <optional>
+
 #include <embree3/rtcore.h>
+
+#include "core/transport/triangle_grid.h"
 
 namespace lueur {
 
@@ -10,9 +14,10 @@ struct World::Embree {
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
     std::shared_ptr<const TriangleTree> tree; // Embree's triangles are the scene's
-    std::vector<std::uint32_t> surface;       // of each triangle
-    std::vector<glm::vec3> normal;            // of each triangle; not unit; towards the lit side
-    std::vector<std::uint32_t> twin;          // of each coarse element: its other side
+    std::optional<TriangleGrid> grid;
+    std::vector<std::uint32_t> surface; // of each triangle
+    std::vector<glm::vec3> normal;      // of each triangle; not unit; towards the lit side
+    std::vector<std::uint32_t> twin;    // of each coarse element: its other side
     float epsilon = 1e-4f;
 
     ~Embree() {
@@ -48,6 +53,7 @@ World::World(const Mesh& mesh)
             const glm::vec3 a = mesh.vertices[v.x].position;
             e.normal.push_back(glm::cross(mesh.vertices[v.y].position - a, mesh.vertices[v.z].position - a));
         }
+        e.grid.emplace(e.tree);
         e.twin = mesh.coarse_twin;
         e.surface.resize(e.tree->count);
         for (std::uint32_t n = 0; n < mesh.coarse_triangle.size(); ++n)
@@ -82,14 +88,17 @@ Hit World::closest(const Ray& ray) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     rtcIntersect1(embree_->scene, &context, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+    return hit_of(query.hit.primID, ray.direction, query.ray.tfar, query.hit.u, query.hit.v);
+}
+
+Hit World::hit_of(std::uint32_t triangle, glm::vec3 direction, float t, float b1, float b2) const {
     Hit hit;
-    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
-    const std::uint32_t t = query.hit.primID;
-    hit.t = query.ray.tfar;
-    hit.surface = embree_->surface[t];
-    hit.b1 = query.hit.u, hit.b2 = query.hit.v;
-    const std::uint32_t element = coarse_element_at(*embree_->tree, t, hit.b1, hit.b2);
-    if (glm::dot(embree_->normal[t], ray.direction) <= 0) {
+    hit.t = t;
+    hit.surface = embree_->surface[triangle];
+    hit.b1 = b1, hit.b2 = b2;
+    const std::uint32_t element = embree_->grid->element_at(triangle, hit.b1, hit.b2);
+    if (glm::dot(embree_->normal[triangle], direction) <= 0) {
         hit.element = element;
     } else if (embree_->twin[element] != no_index) {
         hit.element = embree_->twin[element];
@@ -98,6 +107,36 @@ Hit World::closest(const Ray& ray) const {
         hit.back_face = true;
     }
     return hit;
+}
+
+void World::closest(glm::vec3 origin, std::span<const glm::vec3> directions, std::span<Hit> hits) const {
+    alignas(32) int valid[packet];
+    alignas(32) RTCRayHit8 query;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    // First all of them, then the elements that they met: those are chains of loads, of which many run side by side.
+    for (std::size_t first = 0; first < directions.size(); first += packet) {
+        const std::size_t count = std::min(packet, directions.size() - first);
+        for (std::size_t k = 0; k < packet; ++k) {
+            const glm::vec3 direction = directions[first + std::min(k, count - 1)];
+            valid[k] = k < count ? -1 : 0;
+            query.ray.org_x[k] = origin.x, query.ray.org_y[k] = origin.y, query.ray.org_z[k] = origin.z;
+            query.ray.dir_x[k] = direction.x, query.ray.dir_y[k] = direction.y, query.ray.dir_z[k] = direction.z;
+            query.ray.tnear[k] = 0, query.ray.tfar[k] = 1e30f;
+            query.ray.time[k] = 0, query.ray.mask[k] = ~0u, query.ray.flags[k] = 0;
+            query.hit.geomID[k] = query.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
+        }
+        rtcIntersect8(valid, embree_->scene, &context, &query);
+        for (std::size_t k = 0; k < count; ++k) {
+            Hit& hit = hits[first + k];
+            hit.surface = query.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID ? no_index : query.hit.primID[k];
+            hit.t = query.ray.tfar[k], hit.b1 = query.hit.u[k], hit.b2 = query.hit.v[k];
+        }
+    }
+    for (std::size_t k = 0; k < directions.size(); ++k)
+        hits[k] = hits[k].surface == no_index
+                      ? Hit{}
+                      : hit_of(hits[k].surface, directions[k], hits[k].t, hits[k].b1, hits[k].b2);
 }
 
 bool World::occluded(const Ray& ray) const {

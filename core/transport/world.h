@@ -38,6 +38,8 @@ public:
     World& operator=(const World&) = delete;
 
     Hit closest(const Ray& ray) const;
+    // Of rays from one place, one hit a direction: a third faster than one by one.
+    void closest(glm::vec3 origin, std::span<const glm::vec3> directions, std::span<Hit> hits) const;
     bool occluded(const Ray& ray) const; // anything between t_min and t_max
 
     // Shadow rays from one place go through the scene together: about twice as fast as one by one. Bit k: something is
@@ -48,6 +50,8 @@ public:
     float epsilon() const; // m; how far rays start from their surface
 
 private:
+    Hit hit_of(std::uint32_t triangle, glm::vec3 direction, float t, float b1, float b2) const;
+
     struct Embree;
     std::unique_ptr<Embree> embree_;
 };

@@ -9,13 +9,12 @@
 
 #include "core/scene/spectral_content.h"
 #include "core/solve/path_tracer.h"
+#include "core/solve/relative_error.h"
 #include "core/transport/sampling.h"
 
 namespace lueur {
 
 namespace {
-
-constexpr double dark_share = 0.02; // of the mean: darker, a relative error is not seen
 
 struct Sums {
     glm::dvec3 xyz{0};

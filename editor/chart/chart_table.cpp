@@ -31,6 +31,7 @@ enum Column : std::size_t {
     rms_without_noise,
     median,
     p95,
+    rms_of_truth,
     points,
     missing,
     estimated_error,
@@ -54,6 +55,7 @@ constexpr std::array<const char*, columns> names{"solver",
                                                  "rms_without_noise_percent",
                                                  "median_percent",
                                                  "p95_percent",
+                                                 "rms_of_truth_percent",
                                                  "points",
                                                  "missing",
                                                  "estimated_error_percent",
@@ -90,6 +92,7 @@ std::string line_of(const MethodChart& chart, const ChartRun& run, const ChartPo
         line[rms_without_noise] = percent(point->error.rms_without_noise);
         line[median] = percent(point->error.median);
         line[p95] = percent(point->error.percentile95);
+        line[rms_of_truth] = percent(point->error.rms_of_truth);
         line[points] = fmt::format("{}", point->error.counted);
         line[missing] = fmt::format("{}", point->error.missing);
         line[estimated_error] = percent(point->estimated_error);
@@ -176,6 +179,7 @@ private:
             point.error.rms_without_noise = 0.01 * number(record, rms_without_noise);
             point.error.median = 0.01 * number(record, median);
             point.error.percentile95 = 0.01 * number(record, p95);
+            point.error.rms_of_truth = 0.01 * number(record, rms_of_truth);
             point.error.counted = static_cast<int>(number(record, points));
             point.error.missing = static_cast<int>(number(record, missing));
             point.error.reference_error = 0.01 * number(record, reference_error);

@@ -2,8 +2,9 @@
 //
 // Columns: solver, form_factors, oracle, level, element_scale, target_error_percent, samples (the budget); end
 // (`milestone` for a look on the way), reason; seconds (of solving); rms_percent, rms_without_noise_percent,
-// median_percent, p95_percent, points, missing (empty where the run ended without a figure); estimated_error_percent;
-// elements, rays; reference_paths, reference_error_percent (the same in every line).
+// median_percent, p95_percent (relative_error.h, as is estimated_error_percent), rms_of_truth_percent (relative to the
+// truth alone), points, missing (empty where the run ended without a figure); estimated_error_percent; elements, rays;
+// reference_paths, reference_error_percent (the same in every line).
 #pragma once
 
 #include <expected>

@@ -18,6 +18,8 @@ std::optional<EditTimes> edit_times(Scene scene, double time_limit, const std::a
     if (!settled()) return {};
     std::array<double, 5> paint{}, dimmer{}, spectrum{};
     const auto seconds = [&](SolveFrom from) -> std::optional<double> {
+        while (solution.prepare_edits(cancel)) {
+        }
         solution.update(std::make_shared<const Scene>(scene), from);
         if (!settled()) return {};
         return solution.status().last_edit_seconds;

@@ -8,6 +8,7 @@
 
 namespace lueur {
 
+// As by hand: between two edits the solver has the time to prepare for the next (Solution::prepare_edits).
 struct EditTimes {          // s of solving until the scene has settled again; medians of five edits
     double reflectance = 0; // of one material after the other
     double dimmer = 0;      // of one luminaire after the other

@@ -119,10 +119,10 @@ private:
         const auto values = measure_points(solution, points_, {MeasureAt::field, 0, 1, false}, cancel_);
         if (cancel_) return true;
         const ErrorStatistics error = error_statistics(values, truth_);
-        if (2 * error.missing > error.missing + error.counted || error.rms > astray) {
+        if (2 * error.missing > error.missing + error.counted || error.rms_of_truth > astray) {
             run.end = RunEnd::diverged;
-            run.reason = error.rms > astray ? fmt::format("relative error {:.2g}", error.rms)
-                                            : fmt::format("{} points without a finite figure", error.missing);
+            run.reason = error.rms_of_truth > astray ? fmt::format("relative error {:.2g}", error.rms_of_truth)
+                                                     : fmt::format("{} points without a finite figure", error.missing);
             return false;
         }
         run.points.push_back({status.seconds, status.estimated_error, error});

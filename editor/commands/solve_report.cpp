@@ -44,6 +44,9 @@ std::string report_json(const std::string& command, const BatchParams& params, c
     report["solve_seconds"] = solved.seconds;
     report["rays"] = status.rays;
     report["form_factor_cost"] = status.form_factor_cost;
+    report["form_factor_pairs"] = status.form_factor_pairs;
+    report["form_factors_warned"] = status.form_factors_warned;
+    report["form_factors_missed"] = status.form_factors_missed;
     if (status.paths > 0) report["paths"] = status.paths;
     report["rays_per_receiver"] = status.rays_per_receiver;
     report["rows"] = status.receivers;

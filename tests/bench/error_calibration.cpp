@@ -8,14 +8,12 @@
 // what runs then is judged where it is, what comes after is left out. With --dump every point judged
 // as a line: position, m; truth, its standard error, what the field says, its standard deviation, lx.
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
 
 #include <fmt/format.h>
 
-#include "core/scene/scene_file.h"
 #include "core/scene/solver_words.h"
 #include "core/transport/mesh.h"
+#include "tests/bench/program.h"
 #include "tests/support/error_truth.h"
 
 using namespace lueur;
@@ -158,28 +156,21 @@ void run(Scene scene, const Options& options, Tally& tally) {
 int main(int argc, char** argv) {
     Options options;
     std::vector<std::string> scenes;
-    for (int i = 1; i < argc; ++i) {
-        if (!std::strcmp(argv[i], "--points") && i + 1 < argc)
-            options.points = std::max(1, std::atoi(argv[++i]));
-        else if (!std::strcmp(argv[i], "--paths") && i + 1 < argc)
-            options.paths = std::max(16, std::atoi(argv[++i]));
-        else if (!std::strcmp(argv[i], "--seconds") && i + 1 < argc)
-            options.seconds = std::atof(argv[++i]);
-        else if (!std::strcmp(argv[i], "--budgets") && i + 1 < argc)
-            options.budgets = argv[++i];
-        else if (!std::strcmp(argv[i], "--dump") && i + 1 < argc)
-            options.dump = std::fopen(argv[++i], "w");
-        else
-            scenes.emplace_back(argv[i]);
-    }
+    std::string dump;
+    CLI::App program("Is the estimated error right?");
+    program.add_option("scenes", scenes)->required();
+    program.add_option("--points", options.points)->check(CLI::PositiveNumber);
+    program.add_option("--paths", options.paths)->check(CLI::Range(16, 1 << 24));
+    program.add_option("--seconds", options.seconds, "of solving, a scene");
+    program.add_option("--budgets", options.budgets);
+    program.add_option("--dump", dump);
+    if (const auto status = bench::parse(program, argc, argv)) return *status;
+    if (!dump.empty()) options.dump = std::fopen(dump.c_str(), "w");
     Tally tally;
     for (const std::string& file : scenes) {
-        auto loaded = load_scene(file);
-        if (!loaded) {
-            for (const std::string& line : loaded.error()) fmt::print(stderr, "{}\n", line);
-            return 2;
-        }
-        run(loaded->scene, options, tally);
+        const auto scene = bench::scene_of(file);
+        if (!scene) return bench::exit_mistake;
+        run(*scene, options, tally);
     }
     fmt::print("{} budgets; ratio between 0.5 and 2 at the vertices: {}, of the scene: {}; 95 % inside: {}\n",
                tally.judged, tally.vertices, tally.scene, tally.covered);

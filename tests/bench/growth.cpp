@@ -10,20 +10,16 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <string>
 #include <vector>
 
-#include <fmt/format.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "core/scene/scene_file.h"
 #include "core/solve/memory_plan.h"
 #include "core/solve/solution_state.h"
+#include "tests/bench/program.h"
 #include "tests/support/hall.h"
 
 using namespace lueur;
@@ -123,23 +119,19 @@ double exponent(const std::vector<Figures>& all, Column y) {
 
 } // namespace
 
-int main(int count, char** words) {
+int main(int argc, char** argv) {
+    CLI::App program{"How time and memory of each stage grow with the scene.", "growth"};
     std::vector<std::size_t> sizes;
     double seconds = 60;
-    std::filesystem::path folder = std::filesystem::temp_directory_path() / fmt::format("lueur-growth-{}", getpid());
-    bool keep = false;
-    for (int i = 1; i < count; ++i) {
-        if (std::strcmp(words[i], "--seconds") == 0 && i + 1 < count)
-            seconds = std::atof(words[++i]);
-        else if (std::strcmp(words[i], "--folder") == 0 && i + 1 < count)
-            folder = words[++i], keep = true;
-        else if (const auto n = std::strtoull(words[i], nullptr, 10); n > 0)
-            sizes.push_back(n);
-        else {
-            fmt::print(stderr, "growth [TRIANGLES...] [--seconds N] [--folder FOLDER]\n");
-            return 2;
-        }
-    }
+    std::string kept;
+    program.add_option("TRIANGLES", sizes)->check(CLI::PositiveNumber);
+    program.add_option("--seconds", seconds, "of loading and solving each");
+    program.add_option("--folder", kept, "keep the halls there");
+    if (const auto status = bench::parse(program, argc, argv)) return *status;
+    const bool keep = !kept.empty();
+    const std::filesystem::path folder =
+        keep ? std::filesystem::path(kept)
+             : std::filesystem::temp_directory_path() / fmt::format("lueur-growth-{}", getpid());
     if (sizes.empty()) sizes = {10'000, 30'000, 100'000, 300'000, 1'000'000};
     fmt::print("Processor seconds until each is done; MiB.\n{:>9} {:>6} {:>6} {:>6} {:>8} {:>7} {:>7} {:>7} {:>7} "
                "{:>8} {:>8} {:>6}\n",

@@ -3,29 +3,25 @@
 //     make_hall FOLDER TRIANGLES...
 //
 // as FOLDER/hall_TRIANGLES.toml and .glb.
-#include <cstdio>
-#include <cstdlib>
 #include <exception>
 
-#include <fmt/format.h>
-
+#include "tests/bench/program.h"
 #include "tests/support/hall.h"
 
-int main(int count, char** words) {
-    if (count < 3) {
-        fmt::print(stderr, "make_hall FOLDER TRIANGLES...\n");
-        return 2;
-    }
+using namespace lueur;
+
+int main(int argc, char** argv) {
+    CLI::App program{"Writes the hall that growth is measured on.", "make_hall"};
+    std::string folder;
+    std::vector<std::size_t> sizes;
+    program.add_option("FOLDER", folder)->required();
+    program.add_option("TRIANGLES", sizes)->required()->check(CLI::PositiveNumber);
+    if (const auto status = bench::parse(program, argc, argv)) return *status;
     try {
-        for (int i = 2; i < count; ++i) {
-            const auto triangles = std::strtoull(words[i], nullptr, 10);
-            if (triangles == 0) {
-                fmt::print(stderr, "make_hall: \"{}\" is not a number of triangles\n", words[i]);
-                return 2;
-            }
-            const auto size =
-                lueur::test::write_hall(words[1], fmt::format("hall_{}", words[i]), {.triangles = triangles});
-            fmt::print("hall_{}: {} triangles, {} objects, {} luminaires\n", words[i], size.triangles, size.objects,
+        for (const std::size_t triangles : sizes) {
+            const std::string name = fmt::format("hall_{}", triangles);
+            const test::HallSize size = test::write_hall(folder, name, {.triangles = triangles});
+            fmt::print("{}: {} triangles, {} objects, {} luminaires\n", name, size.triangles, size.objects,
                        size.luminaires);
         }
     } catch (const std::exception& exception) {

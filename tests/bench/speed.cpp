@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <functional>
 #include <numeric>
@@ -22,13 +21,13 @@
 #include <tbb/parallel_for.h>
 #include <unistd.h>
 
-#include "core/scene/scene_file.h"
 #include "core/solve/gather_system.h"
 #include "core/solve/solution_state.h"
 #include "core/transport/direct_light.h"
 #include "core/transport/sampling.h"
 #include "editor/chart/edit_times.h"
 #include "editor/chart/run_chart.h"
+#include "tests/bench/program.h"
 
 using namespace lueur;
 
@@ -97,33 +96,29 @@ public:
 
     // Seconds for all of them, one call a ray.
     double closest(const std::vector<Ray>& rays) const {
-        return shortest(3, [&] {
-            in_parallel(rays.size(), 4096, [&](std::size_t first, std::size_t last) {
-                RTCIntersectContext context;
-                rtcInitIntersectContext(&context);
-                for (std::size_t r = first; r < last; ++r) {
-                    RTCRayHit query{};
-                    query.ray = plain(rays[r]);
-                    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-                    rtcIntersect1(scene_, &context, &query);
-                }
-            });
+        return seconds_of(rays, [this](RTCIntersectContext& context, const RTCRay& ray) {
+            RTCRayHit query{};
+            query.ray = ray;
+            query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+            rtcIntersect1(scene_, &context, &query);
         });
     }
     double occluded(const std::vector<Ray>& rays) const {
+        return seconds_of(rays,
+                          [this](RTCIntersectContext& context, RTCRay ray) { rtcOccluded1(scene_, &context, &ray); });
+    }
+
+private:
+    template <typename F>
+    static double seconds_of(const std::vector<Ray>& rays, const F& trace) {
         return shortest(3, [&] {
             in_parallel(rays.size(), 4096, [&](std::size_t first, std::size_t last) {
                 RTCIntersectContext context;
                 rtcInitIntersectContext(&context);
-                for (std::size_t r = first; r < last; ++r) {
-                    RTCRay query = plain(rays[r]);
-                    rtcOccluded1(scene_, &context, &query);
-                }
+                for (std::size_t r = first; r < last; ++r) trace(context, plain(rays[r]));
             });
         });
     }
-
-private:
     static RTCRay plain(const Ray& ray) {
         RTCRay query{};
         query.org_x = ray.origin.x, query.org_y = ray.origin.y, query.org_z = ray.origin.z;
@@ -267,13 +262,10 @@ std::string time_to(const MethodChart& chart, double target, double ErrorStatist
     return best < 1e300 ? fmt::format("{:.3g} s", best) : fmt::format("not reached ({:.1f} %)", 100 * least);
 }
 
-int bench(const std::string& file, const Options& options) {
-    auto loaded = load_scene(file);
-    if (!loaded) {
-        for (const std::string& line : loaded.error()) fmt::print(stderr, "{}\n", line);
-        return 2;
-    }
-    Scene scene = loaded->scene;
+int measure(const std::string& file, const Options& options) {
+    auto loaded = bench::scene_of(file);
+    if (!loaded) return bench::exit_mistake;
+    Scene scene = std::move(*loaded);
     scene.solve.solver = SolverKind::gathering;
     if (scene.name.empty()) scene.name = std::filesystem::path(file).stem().string();
 
@@ -321,8 +313,9 @@ int bench(const std::string& file, const Options& options) {
     params.run_limit = options.seconds / 3;
     const MethodChart chart = run_chart(scene, params, never);
     for (const double target : {0.05, 0.02, 0.01})
-        line(fmt::format("to {:.0f} % error: RMS; 95th percentile", 100 * target),
-             time_to(chart, target, &ErrorStatistics::rms_without_noise) + "; " +
+        line(fmt::format("to {:.0f} % error: RMS (of the truth alone, as found); 95th percentile", 100 * target),
+             time_to(chart, target, &ErrorStatistics::rms_without_noise) + " (" +
+                 time_to(chart, target, &ErrorStatistics::rms_of_truth) + "); " +
                  time_to(chart, target, &ErrorStatistics::percentile95));
     line("reference", fmt::format("{} paths at {} points, {:.2g} % standard error", chart.reference_paths, chart.points,
                                   100 * chart.reference_error));
@@ -334,28 +327,26 @@ int bench(const std::string& file, const Options& options) {
 int main(int argc, char** argv) {
     Options options;
     std::vector<std::string> scenes;
-    for (int i = 1; i < argc; ++i) {
-        if (!std::strcmp(argv[i], "--points") && i + 1 < argc)
-            options.points = std::max(1, std::atoi(argv[++i]));
-        else if (!std::strcmp(argv[i], "--seconds") && i + 1 < argc)
-            options.seconds = std::atof(argv[++i]);
-        else if (!std::strcmp(argv[i], "--markdown") && i + 1 < argc)
-            options.markdown = std::fopen(argv[++i], "a");
-        else if (!std::strcmp(argv[i], "--csv") && i + 1 < argc)
-            options.csv = std::fopen(argv[++i], "a");
-        else
-            scenes.emplace_back(argv[i]);
-    }
-    if (!options.markdown) {
-        fmt::print(stderr, "the file of --markdown cannot be written\n");
-        return 2;
+    std::string markdown, csv;
+    CLI::App program("How fast is it?");
+    program.add_option("scenes", scenes)->required();
+    program.add_option("--points", options.points)->check(CLI::PositiveNumber);
+    program.add_option("--seconds", options.seconds, "for the runs and the reference of a scene's chart");
+    program.add_option("--markdown", markdown);
+    program.add_option("--csv", csv);
+    if (const auto status = bench::parse(program, argc, argv)) return *status;
+    if (!markdown.empty()) options.markdown = std::fopen(markdown.c_str(), "a");
+    if (!csv.empty()) options.csv = std::fopen(csv.c_str(), "a");
+    if (!options.markdown || (!csv.empty() && !options.csv)) {
+        fmt::print(stderr, "the files of --markdown and --csv cannot be written\n");
+        return bench::exit_mistake;
     }
     int worst = 0;
     for (const std::string& file : scenes) {
         std::fflush(nullptr);
         const pid_t child = fork(); // before any thread is started
         if (child == 0) {
-            const int result = bench(file, options);
+            const int result = measure(file, options);
             std::fflush(nullptr);
             _exit(result);
         }

@@ -222,7 +222,7 @@ TEST(ChartTable, TellsEveryFaultWithItsPlace) {
     EXPECT_THAT(faults.error()[1], HasSubstr("end is \"exhausted\"; allowed: settled, unfinished, "));
     text = chart_table(small_method_chart());
     text += "jacobi,hemicube\n";
-    EXPECT_THAT(parse_chart_table(text, "a.csv").error().front(), HasSubstr(": 2 columns; 21 are needed"));
+    EXPECT_THAT(parse_chart_table(text, "a.csv").error().front(), HasSubstr(": 2 columns; 22 are needed"));
 }
 
 TEST(ChartPicture, DrawsEveryMethodAndMarksWhatFailed) {

@@ -1,6 +1,8 @@
 // Hierarchical radiosity: links, refinement, energy.
+#include <chrono>
 #include <cmath>
 #include <map>
+#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -128,7 +130,9 @@ TEST(Hierarchical, FurnaceIsExactWithRowsOfOne) {
     }
 }
 
-TEST(Hierarchical, LectureFormLosesEnergyInTheFurnace) {
+// The lecture's disks lost a tenth of each row at touching walls. With the exact formula there rows come to 1 on
+// average; some are above it and scaled down, those in the corners stay below: 6 % of the light are lost.
+TEST(Hierarchical, LectureFormLosesLittleInTheFurnace) {
     const double rho = 0.5;
     const Solution solution = test::solved(hierarchical(test::furnace(rho), RefinementOracle::form_factor, 0.05));
     ASSERT_TRUE(solution.status().settled) << solution.status().message;
@@ -137,11 +141,45 @@ TEST(Hierarchical, LectureFormLosesEnergyInTheFurnace) {
     for_leaves(h, [&](std::uint32_t n, const ElementNode& node) {
         sum += double(node.area) * double(h.row_sum(n)), area += double(node.area);
     });
-    EXPECT_GT(sum / area, 0.85);
-    EXPECT_LT(sum / area, 0.99);
+    EXPECT_NEAR(sum / area, 1, 0.02);
     const double one = solution.state().luminaire_exitance[0][0];
     EXPECT_LT(mean_light(h), one / (1 - rho));
-    EXPECT_GT(mean_light(h), 0.8 * one / (1 - rho));
+    EXPECT_GT(mean_light(h), 0.92 * one / (1 - rho));
+}
+
+// Slices end wherever time is up or someone asks: the same links, the same light. And an edit that comes in the middle
+// of a round ends where the same scene opened afresh does.
+TEST(Hierarchical, StepsThatAreCutShortChangeNothing) {
+    const Scene scene = hierarchical(test::small_room(), RefinementOracle::error, 0, 0.2);
+    const Solution whole = test::solved(scene);
+    Solution cut(std::make_shared<const Scene>(scene));
+    std::atomic<bool> cancel{false}, over{false};
+    std::thread impatient([&] {
+        while (!over) {
+            cancel = !cancel;
+            std::this_thread::sleep_for(std::chrono::microseconds(200));
+        }
+    });
+    while (cut.step(cancel)) {
+    }
+    over = true;
+    impatient.join();
+    ASSERT_EQ(cut.status().links, whole.status().links);
+    EXPECT_EQ(cut.field()->irradiance.values, whole.field()->irradiance.values);
+
+    auto dimmed = std::make_shared<Scene>(scene);
+    dimmed->luminaires[0].dimmer = 0.25;
+    const Solution fresh = test::solved(*dimmed);
+    std::uint32_t steps = 0;
+    for (Solution all(std::make_shared<const Scene>(scene)); all.step(test::never);) ++steps;
+    for (const double share : {0.55, 0.75, 0.9}) {
+        Solution edited(std::make_shared<const Scene>(scene));
+        for (std::uint32_t k = 0; k < share * steps; ++k) edited.step(test::never);
+        edited.update(dimmed, SolveFrom::sources);
+        test::settle(edited);
+        ASSERT_TRUE(edited.status().settled);
+        EXPECT_NEAR(mean_light(*edited.state().hierarchy) / mean_light(*fresh.state().hierarchy), 1, 0.03) << share;
+    }
 }
 
 // A coarse solution agrees with one on many more links as its error bound says.

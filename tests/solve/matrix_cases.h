@@ -128,4 +128,27 @@ inline double residual_of(const FormFactorMatrix& f, const PatchField& b, const 
     return worst / source;
 }
 
+// B of (I - rho F) B = E by elimination: rows are dominated by their diagonal where rho row_sum < 1, so that no pivot
+// is looked for (Golub & Van Loan, Matrix computations, 3.4.10).
+inline PatchField eliminated(const FormFactorMatrix& f, const PatchField& rho, const PatchField& e, int channels) {
+    PatchField b = e;
+    for (int c = 0; c < channels; ++c) {
+        std::vector<std::vector<double>> a(f.n, std::vector<double>(f.n + 1));
+        for (std::uint32_t i = 0; i < f.n; ++i) {
+            for (std::uint32_t j = 0; j < f.n; ++j) a[i][j] = (i == j) - rho[i][c] * double(f.row(i)[j]);
+            a[i][f.n] = e[i][c];
+        }
+        for (std::uint32_t k = 0; k < f.n; ++k)
+            for (std::uint32_t i = k + 1; i < f.n; ++i) {
+                const double times = a[i][k] / a[k][k];
+                for (std::uint32_t j = k; j <= f.n; ++j) a[i][j] -= times * a[k][j];
+            }
+        for (std::uint32_t i = f.n; i-- > 0;) {
+            for (std::uint32_t j = i + 1; j < f.n; ++j) a[i][f.n] -= a[i][j] * b[j][c];
+            b[i][c] = a[i][f.n] / a[i][i];
+        }
+    }
+    return b;
+}
+
 } // namespace lueur::test

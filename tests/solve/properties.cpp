@@ -105,6 +105,8 @@ TEST(Gathering, RandomEditsSettleWhereAFreshSolveDoes) {
             edited.update(std::make_shared<const Scene>(scene), from);
             for (std::size_t steps = pick(12); steps > 0 && edited.step(test::never); --steps) {
             }
+            for (std::size_t steps = pick(40); steps > 0 && edited.prepare_edits(test::never); --steps) {
+            }
         }
         if (round % 4 != 3) continue;
         test::settle(edited);

@@ -116,14 +116,15 @@ TEST_P(StabilityWhite, WallsAMillimetreApart) {
     const double truth = 0.5 * (f + rho * f * f) / (1 - rho * rho * f * f);
     const bool right =
         test::expect_right_or_said(solution, choice, test::arriving(solution).mean() / one, truth, 0.005);
+    // Its rays from patch to vertex lose 4 % at the rims: rays of the patches say so, and the gap is told.
     if (choice.kind == SolverKind::shooting) {
-        // Its rays from patch to vertex lose 4 % at the rims, which the probes do not see; the gap is told.
         EXPECT_THAT(solution.status().message, ::testing::HasSubstr("face others at less than"));
-        return;
     }
-    EXPECT_EQ(right, !is_lecture_hierarchy(choice) || solution.status().estimated_error > 0.5)
-        << choice.name << " off by " << test::arriving(solution).mean() / one / truth - 1 << ", says "
-        << solution.status().estimated_error << ": " << solution.status().message;
+    // Oracle2 links the two squares whole, as far as its flux goes.
+    if (choice.oracle != RefinementOracle::flux) {
+        EXPECT_TRUE(right) << choice.name << " off by " << test::arriving(solution).mean() / one / truth - 1
+                           << ", says " << solution.status().estimated_error << ": " << solution.status().message;
+    }
 }
 
 // Point-to-disk from one point beside a shared edge, or a hemicube of few pixels: with rho 0.999 no sweep would

@@ -9,6 +9,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/solve/path_tracer.h"
+#include "core/solve/relative_error.h"
 #include "core/solve/solution_state.h"
 #include "core/transport/sampling.h"
 #include "core/view/surface_points.h"
@@ -79,20 +80,18 @@ struct ErrorVerdict {
     bool right() const { return most >= 0.5 * estimate && least <= 2 * estimate; }
 };
 
-// Errors relative to the larger of the true and the shown value, as in scene_error: a point that shows seven times its
-// light is 86 % wrong, not 600 %, so that two of 200 points (under a cupboard, at the foot of a wall) cannot decide the
-// RMS of all. Points whose truth is darker than 2 % of the mean do not count: the insides of closed
-// furniture.
+// Errors are relative as everywhere (relative_error.h), and so are the standard deviations stated. Points whose truth
+// is darker than 2 % of the mean do not count: the insides of closed furniture.
 inline ErrorVerdict judge(const std::vector<JudgedPoint>& points, double mean, double interval_factor) {
     ErrorVerdict verdict;
     int covered = 0;
     double truth = 0, estimate = 0, reference = 0, spread = 0;
     for (const JudgedPoint& p : points) {
-        const double larger = std::max(p.truth, p.value);
-        if (!(p.truth > 0.02 * mean)) continue;
-        const double error = p.value - p.truth, square = larger * larger, noise = p.noise * p.noise / square;
+        if (!(p.truth > dark_share * mean)) continue;
+        const double larger = std::max(p.truth, p.value), square = larger * larger;
+        const double error = p.value - p.truth, noise = p.noise * p.noise / square;
         truth += error * error / square - noise;
-        estimate += p.sigma * p.sigma / (p.value * p.value + p.sigma * p.sigma);
+        estimate += p.sigma * p.sigma / square;
         reference += noise;
         // Of an error's square by the paths' noise, and of the variance that 16 batches tell of it.
         spread += 4 * error * error / square * noise + (2 + 2.0 / 15) * noise * noise;

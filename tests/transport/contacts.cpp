@@ -30,8 +30,8 @@ struct Refined {
     std::uint32_t coarse_vertices = 0;
 };
 
-Refined refine(const Scene& scene, std::uint32_t more) {
-    Refined r{make_mesh(scene, {0.3}), {}, 0};
+Refined refine(const Scene& scene, std::uint32_t more, double element_size = 0.3) {
+    Refined r{make_mesh(scene, {element_size}), {}, 0};
     const World world(r.mesh);
     r.coarse_vertices = r.mesh.coarse_vertex_count;
     r.buried.assign(r.coarse_vertices, 0);
@@ -93,4 +93,34 @@ TEST(IndirectRefinement, KeepsItsLimitAndNeedsLight) {
     EXPECT_LE(few.mesh.vertices.size(), few.coarse_vertices + 60u); // the last split may ask for neighbours
     const Refined dark = refine(room_with_a_block(false), 100000);
     EXPECT_EQ(dark.mesh.vertices.size(), dark.coarse_vertices);
+}
+
+// A picture frame sunk into the wall it hangs on: the four corners of the upper bar's lower side lie in the wall and in
+// the side bars, and all that lies between them is seen.
+TEST(IndirectRefinement, AFaceWhoseCornersAreAllBuriedIsCutWhereItIsSeen) {
+    test::SceneBuilder b;
+    const MaterialIndex white = b.material("white", 0.7);
+    b.room("room", test::all(white), {0, 0, 0}, {4, 2.5f, 4});
+    const float sunk = -0.002f, front = 0.03f;
+    b.block("frame", white, {1.5f, 1.975f, sunk}, {2.5f, 2, front});
+    b.block("frame", white, {1.5f, 1, sunk}, {1.525f, 2, front});
+    b.block("frame", white, {2.475f, 1, sunk}, {2.5f, 2, front});
+    const ObjectIndex lamp =
+        b.polygon("lamp", white, {{1.5f, 2.4f, 2.5f}, {2.5f, 2.4f, 2.5f}, {2.5f, 2.4f, 3.5f}, {1.5f, 2.4f, 3.5f}});
+    b.light("lamp", {lamp}, PowerUnit::lumen, 1000);
+    const Refined r = refine(b.build(), 2000, 1.2);
+    int corners = 0, seen = 0;
+    for (std::uint32_t v = 0; v < r.mesh.vertices.size(); ++v) {
+        const MeshVertex& vertex = r.mesh.vertices[v];
+        if (vertex.normal.y > -0.9f || std::abs(vertex.position.y - 1.975f) > 1e-4f) continue;
+        if (v < r.coarse_vertices) {
+            ++corners;
+            EXPECT_TRUE(r.buried[v]);
+        } else if (!r.buried[v]) {
+            ++seen;
+            EXPECT_GT(vertex.position.z, 0);
+        }
+    }
+    EXPECT_EQ(corners, 4);
+    EXPECT_GT(seen, 0);
 }

@@ -7,6 +7,7 @@
 #include "core/transport/direct_light.h"
 #include "core/transport/gather_rows.h"
 #include "core/transport/polygon_form_factor.h"
+#include "core/transport/sampling.h"
 #include "core/transport/world.h"
 #include "tests/support/scenes.h"
 
@@ -150,6 +151,50 @@ TEST(GatherRows, VerticesInsideASolidAreBuried) {
         EXPECT_FALSE(clear && buried[v]);
     }
     EXPECT_GT(inside, 3);
+}
+
+// What was traced before ends where it would if it were traced again; half of the receivers are new.
+TEST(GatherRows, KeptHitsEndWhereTracedOnesDo) {
+    const Scene scene = test::furnace(0.5);
+    const Mesh mesh = make_mesh(scene, {0.3});
+    const World world(mesh);
+    const std::vector<glm::vec3> origins = ray_origins(mesh, world.epsilon());
+    const std::vector<std::uint8_t> none(mesh.vertices.size(), 0);
+    const Receivers receivers = make_receivers(scene, mesh, none, 1e-4f);
+    const std::uint32_t all = receivers.count(), half = all / 2;
+    GatherPass first = make_gather_pass(mesh, receivers, std::vector<RayHit>(std::size_t(half) * rays_per_pass));
+    EXPECT_EQ(trace_gather_rays(world, mesh, origins, receivers, none, 3, 1, 0, half, first), half * rays_per_pass);
+    GatherPass kept = make_gather_pass(mesh, receivers, std::move(first.hits)),
+               fresh = make_gather_pass(mesh, receivers);
+    EXPECT_EQ(trace_gather_rays(world, mesh, origins, receivers, none, 3, 1, 0, all, kept),
+              (all - half) * rays_per_pass);
+    EXPECT_EQ(trace_gather_rays(world, mesh, origins, receivers, none, 3, 1, 0, all, fresh), all * rays_per_pass);
+    EXPECT_EQ(kept.ends, fresh.ends);
+    EXPECT_EQ(kept.fine_ends, fresh.fine_ends);
+}
+
+// Many rays from one place meet what each of them meets alone.
+TEST(World, RaysTogetherMeetWhatTheyMeetAlone) {
+    const Scene scene = test::furnace(0.5);
+    const Mesh mesh = make_mesh(scene, {0.3});
+    const World world(mesh);
+    const glm::vec3 origin(0.3f, 0.45f, 0.6f);
+    std::vector<glm::vec3> directions, targets;
+    for (std::uint32_t k = 0; k < 21; ++k) { // no multiple of a packet
+        directions.push_back(Frame(glm::vec3(0, k % 2 ? 1 : -1, 0)).world(cosine_direction(r2_point(k, {0.3f, 0.7f}))));
+        targets.push_back(origin + (0.2f + 0.1f * float(k)) * directions.back());
+    }
+    std::vector<Hit> hits(directions.size());
+    world.closest(origin, directions, hits);
+    for (std::size_t k = 0; k < directions.size(); ++k) {
+        const Hit alone = world.closest({origin, directions[k]});
+        EXPECT_EQ(hits[k].element, alone.element);
+        EXPECT_NEAR(hits[k].t, alone.t, 1e-5);
+        EXPECT_NEAR(hits[k].b1, alone.b1, 1e-4);
+    }
+    const std::span<const glm::vec3> some = std::span(targets).first(World::packet);
+    const std::uint32_t hidden = world.hidden(origin, some);
+    for (std::size_t k = 0; k < some.size(); ++k) EXPECT_EQ(hidden >> k & 1, !sees(world, origin, some[k])) << k;
 }
 
 TEST(DirectLight, WhollySeenIsTheExactFormFactor) {

@@ -1,6 +1,7 @@
 // Error figures of points whose answer is known, with and without noise in the reference.
 #include "core/view/error_statistics.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -24,21 +25,34 @@ std::vector<Irradiance> lux(const std::vector<double>& values, double standard_e
 } // namespace
 
 TEST(ErrorStatistics, RootOfTheMeanSquareMedianAndPercentile) {
-    // 100 points: errors of 1 %, 2 % ... 100 %.
-    std::vector<double> values;
-    double square = 0;
+    // 100 points that show 1 %, 2 % ... 100 % less or more than the truth: relative to the larger of both.
+    std::vector<double> values, errors;
+    double square = 0, of_truth = 0;
     for (int i = 1; i <= 100; ++i) {
         values.push_back(100 + (i % 2 == 0 ? i : -i));
-        square += 1e-4 * i * i / 100;
+        errors.push_back(i % 2 == 0 ? i / (100.0 + i) : i / 100.0);
+        square += errors.back() * errors.back() / 100;
+        of_truth += 1e-4 * i * i / 100;
     }
+    std::ranges::sort(errors);
     const ErrorStatistics e = error_statistics(lux(values), lux(std::vector<double>(100, 100)));
     EXPECT_NEAR(e.rms, std::sqrt(square), 1e-12);
+    EXPECT_NEAR(e.rms_of_truth, std::sqrt(of_truth), 1e-12);
     EXPECT_NEAR(e.rms_without_noise, e.rms, 1e-12);
-    EXPECT_NEAR(e.median, 0.51, 1e-12);
-    EXPECT_NEAR(e.percentile95, 0.96, 1e-12);
+    EXPECT_NEAR(e.median, errors[50], 1e-12);
+    EXPECT_NEAR(e.percentile95, errors[95], 1e-12);
     EXPECT_EQ(e.counted, 100);
     EXPECT_EQ(e.reference_error, 0);
     EXPECT_EQ(e.resolution, 0);
+}
+
+// One crevice that shows thirty times its light does not decide the figure of a hundred points.
+TEST(ErrorStatistics, NothingIsMoreThanWhollyWrong) {
+    std::vector<double> values(100, 101), truth(100, 100);
+    truth[7] = 3, values[7] = 90;
+    const ErrorStatistics e = error_statistics(lux(values), lux(truth));
+    EXPECT_NEAR(e.rms, 0.1, 0.005);
+    EXPECT_NEAR(e.rms_of_truth, 2.9, 0.005);
 }
 
 TEST(ErrorStatistics, DarkPointsDoNotCountAndMissingOnesAreTold) {
@@ -50,7 +64,7 @@ TEST(ErrorStatistics, DarkPointsDoNotCountAndMissingOnesAreTold) {
     const ErrorStatistics m = error_statistics(lux({110, nan, INFINITY}), lux({100, 100, 100}));
     EXPECT_EQ(m.counted, 1);
     EXPECT_EQ(m.missing, 2);
-    EXPECT_NEAR(m.rms, 0.1, 1e-12);
+    EXPECT_NEAR(m.rms, 10.0 / 110, 1e-12);
 }
 
 TEST(ErrorStatistics, NothingToCompareIsWhollyWrongNotANumberLess) {

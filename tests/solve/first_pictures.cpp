@@ -1,0 +1,86 @@
+// The pictures on the way: none of them is darker than the light that was there before by more than what is being found
+// out.
+#include <gtest/gtest.h>
+
+#include "core/solve/solution_state.h"
+#include "tests/support/scenes.h"
+
+using namespace lueur;
+
+namespace {
+
+double mean_illuminance(const Field& field) {
+    double sum = 0;
+    for (const glm::vec3& h : field.irradiance_xyz) sum += h.y / double(field.irradiance_xyz.size());
+    return sum;
+}
+
+// Of what arrives at receivers, the share by which it is not W U.
+double wrong_share(const Solution::State& s) {
+    const GatherSystem& system = s.system;
+    ChannelField gathered(system.count(), s.channels());
+    apply_rows(s.passes, RayEnds::coarse, system.radiosity(), gathered, test::never);
+    double difference = 0, sum = 0;
+    for (std::uint32_t i = 0; i < system.count(); ++i) {
+        for (int c = 0; c < s.channels(); ++c) {
+            difference += std::abs(double(gathered[i][c]) - system.gathered()[i][c]);
+            sum += std::abs(gathered[i][c]);
+        }
+    }
+    return sum > 0 ? difference / sum : 0;
+}
+
+} // namespace
+
+// A finer mesh has more receivers: they start from what is known, not from black.
+TEST(FirstPictures, DoNotGoDarkWhereTheMeshIsRefined) {
+    Scene scene = test::small_room();
+    for (Material& m : scene.materials) m.reflectance = 0.8; // most of the light is indirect
+    Solution solution(std::make_shared<const Scene>(scene));
+    double before = 0;
+    std::uint32_t receivers = 0;
+    int refinements = 0;
+    while (solution.step(test::never)) {
+        if (solution.state().phase != SolvePhase::solve && solution.state().phase != SolvePhase::transport) continue;
+        if (solution.state().system.count() == 0) continue;
+        const double now = mean_illuminance(*solution.field());
+        const std::uint32_t count = solution.state().system.count();
+        if (receivers > 0 && count > receivers) {
+            ++refinements;
+            EXPECT_GT(now, 0.95 * before);
+        }
+        receivers = count;
+        before = now;
+    }
+    EXPECT_GT(refinements, 0);
+}
+
+// An edit in the middle, whatever is going on then: what is shown from there is light of the rays there are, and never
+// less than nothing.
+TEST(FirstPictures, AreTrueAfterAnEditAtAnyMoment) {
+    Scene scene = test::small_room();
+    scene.solve.element_size = 1.2;
+    int pictures = 0, between_passes = 0;
+    for (int moment = 0; moment < 400; ++moment) {
+        Solution solution(std::make_shared<const Scene>(scene));
+        const Solution::State& s = solution.state();
+        bool there = true;
+        for (int k = 0; k <= moment && there; ++k) there = solution.step(test::never);
+        if (!there) break;
+        if (s.passes.empty()) continue; // nothing that could be wrong
+        between_passes += s.phase == SolvePhase::transport && !s.passes.empty() && !s.pass_open;
+        Scene edited = scene;
+        edited.materials[0].reflectance = 0.1;
+        edited.luminaires[0].dimmer = 0.02;
+        solution.update(std::make_shared<const Scene>(edited), SolveFrom::sources);
+        for (int k = 0; k < 8 && solution.step(test::never); ++k) {
+            if (solution.state().phase != SolvePhase::solve || solution.state().system.count() == 0) continue;
+            ASSERT_LT(wrong_share(solution.state()), 1e-5) << "moment " << moment << ", step " << k;
+            const auto field = solution.field();
+            for (const glm::vec3& h : field->irradiance_xyz) ASSERT_GE(h.y, 0);
+            ++pictures;
+        }
+    }
+    EXPECT_GT(pictures, 100);
+    EXPECT_GT(between_passes, 0);
+}
