@@ -1,8 +1,8 @@
 #include "core/scene/files.h"
 
+#include <array>
 #include <cctype>
 #include <fstream>
-#include <iterator>
 
 namespace lueur {
 
@@ -22,7 +22,10 @@ std::optional<std::string> why_unreadable(const fs::path& file) {
 std::expected<std::string, std::string> read_bytes(const fs::path& file) {
     if (const auto why = why_unreadable(file)) return std::unexpected(*why);
     std::ifstream stream(file, std::ios::binary);
-    std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    std::string bytes;
+    std::array<char, 1 << 16> block;
+    while (stream.read(block.data(), block.size()) || stream.gcount() > 0)
+        bytes.append(block.data(), static_cast<std::size_t>(stream.gcount()));
     if (stream.bad()) return std::unexpected("cannot be read to its end");
     return bytes;
 }

@@ -59,9 +59,9 @@ double flux(const Scene& scene, const Luminaire& luminaire, double Fluxes::*want
 
 double emitting_area(const Scene& scene, const Luminaire& luminaire) {
     const Geometry& geometry = *scene.geometry;
-    std::vector<bool> emits(scene.objects.size(), false);
+    std::vector<std::uint8_t> emits(scene.objects.size(), 0);
     for (const ObjectIndex object : luminaire.objects)
-        if (at(object) < emits.size()) emits[at(object)] = true;
+        if (at(object) < emits.size()) emits[at(object)] = 1;
     double area = 0;
     for (std::size_t i = 0; i < geometry.surfaces.size(); ++i)
         if (emits[at(geometry.surfaces[i].object)]) area += geometry.surface_area[i];

@@ -90,21 +90,29 @@ PointsSeen look_at(const World& world, std::span<const EmitterPoint> points, glm
     return seen;
 }
 
-std::vector<EmitterTriangle> luminaire_triangles(const Scene& scene, const Luminaire& luminaire) {
-    std::vector<EmitterTriangle> triangles;
+// Of each luminaire, in one look at the scene: of hundreds of luminaires, and a million triangles that do not shine.
+std::vector<std::vector<EmitterTriangle>> luminaire_triangles(const Scene& scene) {
+    std::vector<std::vector<EmitterTriangle>> triangles(scene.luminaires.size());
     const Geometry& geometry = *scene.geometry;
-    std::vector<bool> lit(scene.objects.size(), false);
-    for (const ObjectIndex o : luminaire.objects) lit[at(o)] = true;
+    std::vector<std::vector<std::size_t>> luminaires(scene.objects.size());
+    for (std::size_t l = 0; l < triangles.size(); ++l)
+        for (const ObjectIndex o : scene.luminaires[l].objects)
+            if (auto& of_object = luminaires[at(o)]; of_object.empty() || of_object.back() != l) of_object.push_back(l);
     for (std::size_t t = 0; t < geometry.triangles.size(); ++t) {
-        if (!lit[at(geometry.surfaces[at(geometry.triangle_surface[t])].object)]) continue;
+        const auto& of_object = luminaires[at(geometry.surfaces[at(geometry.triangle_surface[t])].object)];
+        if (of_object.empty()) continue;
         const glm::uvec3 v = geometry.triangles[t];
         const glm::vec3 a = geometry.vertices[v.x].position, b = geometry.vertices[v.y].position,
                         c = geometry.vertices[v.z].position;
         const glm::vec3 normal = glm::cross(b - a, c - a);
         const float length = glm::length(normal);
         if (!(length > 0)) continue;
-        if (luminaire.side != EmitSide::back) triangles.push_back({{a, b, c}, normal / length, length / 2});
-        if (luminaire.side != EmitSide::front) triangles.push_back({{a, c, b}, -normal / length, length / 2});
+        for (const std::size_t l : of_object) {
+            if (scene.luminaires[l].side != EmitSide::back)
+                triangles[l].push_back({{a, b, c}, normal / length, length / 2});
+            if (scene.luminaires[l].side != EmitSide::front)
+                triangles[l].push_back({{a, c, b}, -normal / length, length / 2});
+        }
     }
     return triangles;
 }
@@ -218,8 +226,8 @@ EmitterPoint emitter_point(const Emitter& emitter, glm::vec2 u) {
 
 std::vector<Emitter> make_emitters(const Scene& scene) {
     std::vector<Emitter> emitters;
-    for (const Luminaire& luminaire : scene.luminaires) {
-        Emitter emitter = make_emitter(luminaire_triangles(scene, luminaire));
+    for (std::vector<EmitterTriangle>& triangles : luminaire_triangles(scene)) {
+        Emitter emitter = make_emitter(std::move(triangles));
         std::vector<std::vector<EmitterTriangle>> pieces = pieces_apart(emitter.triangles);
         if (pieces.size() > 1)
             for (std::vector<EmitterTriangle>& piece : pieces) emitter.parts.push_back(make_emitter(std::move(piece)));
