@@ -44,13 +44,16 @@ void step_solve(State& s, const std::atomic<bool>& cancel, bool one_shot) {
     case SolverKind::automatic:
     case SolverKind::gathering:
         return step_gathering(s, cancel);
+    // Refinement has asked the probes, unless it was gathering's, which asks them last.
     case SolverKind::shooting:
+        if (!ask_probes(s, cancel)) return;
         return step_shooting(s, cancel, one_shot);
     case SolverKind::overshooting:
     case SolverKind::jacobi:
     case SolverKind::gauss_seidel:
         return step_matrix(s, cancel, one_shot);
     case SolverKind::hierarchical:
+        if (s.direct_light_apart() && !ask_probes(s, cancel)) return;
         return step_hierarchical(s, cancel);
     case SolverKind::reference:
         return step_reference(s, cancel);
