@@ -36,6 +36,16 @@ bool refine_indirect(State& s, const std::atomic<bool>& cancel) {
     return true;
 }
 
+State::MadeMesh make_mesh_and_world(const std::shared_ptr<const Scene>& scene, double element_size) {
+    State::MadeMesh made;
+    made.mesh = make_mesh(*scene, {element_size});
+    made.world = std::make_shared<const World>(made.mesh);
+    made.origins = ray_origins(made.mesh, made.world->epsilon());
+    made.area = vertex_areas(made.mesh);
+    made.published = std::make_shared<const Mesh>(made.mesh);
+    return made;
+}
+
 void take_indirect_level(State& s) {
     Solution::State::IndirectLevel level = std::move(*s.indirect_level);
     s.mesh.indirect_vertex_count = level.vertices;
@@ -51,18 +61,28 @@ void take_indirect_level(State& s) {
 
 } // namespace
 
-void publish_mesh(State& s) {
-    s.published_mesh = std::make_shared<const Mesh>(s.mesh);
+void publish_mesh(State& s, std::shared_ptr<const Mesh> copy) {
+    s.published_mesh = copy ? std::move(copy) : std::make_shared<const Mesh>(s.mesh);
     s.status.vertices = static_cast<std::uint32_t>(s.mesh.vertices.size());
     s.status.elements = static_cast<std::uint32_t>(s.mesh.elements.size());
 }
 
 void step_mesh(State& s) {
     s.status.stage = SolveStage::meshing;
-    s.element_size = s.scene->solve.element_size > 0 ? s.scene->solve.element_size : automatic_element_size(*s.scene);
-    s.mesh = make_mesh(*s.scene, {s.element_size});
-    s.world = std::make_shared<const World>(s.mesh);
-    s.origins = ray_origins(s.mesh, s.world->epsilon());
+    if (!s.left_meshes.empty()) { // one after the other: two would take the memory of both
+        if (!is_ready(s.left_meshes.back())) return;
+        s.left_meshes.clear();
+    }
+    if (!s.making_mesh.valid()) {
+        s.element_size =
+            s.scene->solve.element_size > 0 ? s.scene->solve.element_size : automatic_element_size(*s.scene);
+        s.making_mesh = std::async(std::launch::async, make_mesh_and_world, s.scene, s.element_size);
+    }
+    if (!is_ready(s.making_mesh) || (s.choosing.valid() && !is_ready(s.choosing))) return;
+    State::MadeMesh made = s.making_mesh.get();
+    s.mesh = std::move(made.mesh);
+    s.world = std::move(made.world);
+    s.origins = std::move(made.origins);
     s.buried.assign(s.mesh.coarse_vertex_count, 0);
     s.around.lit.assign(s.mesh.coarse_vertex_count, 0);
     s.around.back = s.around.near = s.around.lit;
@@ -72,8 +92,9 @@ void step_mesh(State& s) {
                               .element_size = static_cast<float>(s.element_size),
                               .most_vertices = s.mesh.coarse_vertex_count + fine_vertices};
     s.direct = std::make_unique<DirectTransport>(*s.world, s.mesh, make_emitters(*s.scene), params);
-    s.coarse_area = s.indirect_area = vertex_areas(s.mesh);
-    publish_mesh(s);
+    s.coarse_area = s.indirect_area = std::move(made.area);
+    make_channels(s);
+    publish_mesh(s, std::move(made.published));
     s.cursor = 0;
     s.phase = SolvePhase::sketch;
 }
@@ -90,13 +111,17 @@ void step_light(State& s, const std::atomic<bool>& cancel) {
 }
 
 void step_burial(State& s, const std::atomic<bool>& cancel) {
-    if (s.cursor < s.mesh.coarse_vertex_count &&
-        !run_slice(s.cursor, s.mesh.coarse_vertex_count, 64, cancel, [&](std::uint32_t first, std::uint32_t last) {
+    if (s.cursor < s.mesh.coarse_vertex_count) {
+        run_slice(s.cursor, s.mesh.coarse_vertex_count, 64, cancel, [&](std::uint32_t first, std::uint32_t last) {
             find_buried(*s.world, s.mesh, s.origins, first, last, s.buried, &s.around);
-        }))
+        });
         return;
+    }
+    if (s.overlap.cursor < s.mesh.coarse_element_count) {
+        find_overlap(s.mesh, *s.world, s.buried, cancel, s.overlap);
+        return;
+    }
     s.indirect_distance = s.around.distance;
-    if (!find_overlap(s.mesh, *s.world, s.buried, cancel, s.overlap)) return;
     s.status.rays += std::uint64_t(s.mesh.coarse_vertex_count) * burial_rays + s.mesh.coarse_element_count;
     s.receivers = make_receivers(*s.scene, s.mesh, s.buried, static_cast<float>(receiver_cell * s.element_size));
     s.status.matrix_patches = matrix_size(s.mesh, s.scene->solve.matrix_memory).patches;

@@ -40,7 +40,8 @@ public:
     // have, until light_vertices has been called to its end.
     void follow_mesh();
 
-    std::size_t lit_vertices() const { return buried_.size(); } // that it knows of
+    std::size_t lit_vertices() const { return buried_.size(); }        // that it knows of
+    std::uint32_t sketched_vertices() const { return sketch_cursor_; } // the first ones
     std::size_t emitter_count() const { return emitters_.size(); }
     const std::vector<Emitter>& emitters() const { return emitters_; }
     // Of factors D: irradiance, were the luminaires as guessed.
@@ -63,7 +64,9 @@ private:
     enum class Care { looked_at, kept }; // whether light bends somewhere is told by less than what is shown there
     void light(glm::vec3 origin, glm::vec3 normal, float size, Care care, float* factors, float* deviations) const;
     void spread_deviations();
-    void begin_level();
+    bool begin_level(const std::atomic<bool>& cancel);
+    bool look(const std::atomic<bool>& cancel);
+    void judge();
     void split_bent();
     void follow_vertices();
 
@@ -81,7 +84,8 @@ private:
     std::uint32_t sketch_cursor_ = 0, vertex_cursor_ = 0;
 
     std::uint32_t edge_cursor_ = 0;
-    bool level_begun_ = false, refined_ = false;
+    enum class Part { prepare, begin, look, plan, split } part_ = Part::prepare; // of a level
+    bool refined_ = false;
     std::uint32_t level_ = 0;    // so many are done
     bool spread_pending_ = true; // spread_deviations, when the vertices are lit
     float floor_ = 0;

@@ -84,3 +84,25 @@ TEST(FirstPictures, AreTrueAfterAnEditAtAnyMoment) {
     EXPECT_GT(pictures, 100);
     EXPECT_GT(between_passes, 0);
 }
+
+// The mesh is made on a thread of its own. Another geometry does not wait for it, and nothing of it is left in what
+// follows.
+TEST(FirstPictures, AnEditWhileTheMeshIsMadeStartsAfresh) {
+    Scene fine = test::small_room(), coarse = fine;
+    fine.solve.element_size = 0.05;
+    coarse.solve.element_size = 2;
+    coarse.solve.max_rays = 64;
+    coarse.solve.target_error = 0.1;
+    Solution edited(std::make_shared<const Scene>(fine)), fresh(std::make_shared<const Scene>(coarse));
+    edited.step(test::never);
+    edited.update(std::make_shared<const Scene>(fine), SolveFrom::mesh);
+    edited.step(test::never);
+    edited.update(std::make_shared<const Scene>(coarse), SolveFrom::mesh);
+    EXPECT_EQ(edited.mesh(), nullptr);
+    for (Solution* solution : {&edited, &fresh})
+        while (solution->step(test::never)) {
+        }
+    ASSERT_TRUE(edited.status().settled);
+    EXPECT_EQ(edited.field()->irradiance_xyz, fresh.field()->irradiance_xyz);
+    EXPECT_EQ(edited.status().rays, fresh.status().rays);
+}
