@@ -384,6 +384,7 @@ void trace_gathering_rows(State& s, const std::atomic<bool>& cancel) {
         std::vector<RayHit> hits;
         const std::size_t rays = std::size_t(s.receivers.count()) * rays_per_pass;
         if (s.passes.size() < s.kept_hits.size()) hits = std::move(s.kept_hits[s.passes.size()]);
+        if (!s.refined && s.passes.empty()) hits = hits_of_burial(s.receivers, std::exchange(s.around.hits, {}));
         if (!s.fully_refined()) hits.resize(rays);
         s.passes.push_back(make_gather_pass(s.mesh, s.receivers, std::move(hits)));
         s.cursor = 0;

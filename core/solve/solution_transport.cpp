@@ -87,6 +87,8 @@ void step_mesh(State& s) {
     s.around.lit.assign(s.mesh.coarse_vertex_count, 0);
     s.around.back = s.around.near = s.around.lit;
     s.around.distance.assign(s.mesh.coarse_vertex_count, 0);
+    if (s.solver() == SolverKind::gathering)
+        s.around.hits.resize(std::size_t(s.mesh.coarse_vertex_count) * burial_rays);
     s.around.near_distance = static_cast<float>(near_share * s.element_size);
     const DirectParams params{.smallest_edge = static_cast<float>(s.element_size / 8),
                               .element_size = static_cast<float>(s.element_size),
@@ -113,7 +115,7 @@ void step_light(State& s, const std::atomic<bool>& cancel) {
 void step_burial(State& s, const std::atomic<bool>& cancel) {
     if (s.cursor < s.mesh.coarse_vertex_count) {
         run_slice(s.cursor, s.mesh.coarse_vertex_count, 64, cancel, [&](std::uint32_t first, std::uint32_t last) {
-            find_buried(*s.world, s.mesh, s.origins, first, last, s.buried, &s.around);
+            find_buried(*s.world, s.mesh, s.origins, s.scene->solve.seed, first, last, s.buried, &s.around);
         });
         return;
     }

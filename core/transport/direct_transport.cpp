@@ -81,7 +81,7 @@ bool DirectTransport::light_vertices(const std::atomic<bool>& cancel) {
                     light(origins_[v], mesh_.vertices[v].normal, std::sqrt(area_[v]), Care::kept, factors,
                           deviations_.data() + row);
                 buried_[v] = 0;
-                if (guessed_light(factors) == 0) find_buried(world_, mesh_, origins_, v, v + 1, buried_);
+                if (guessed_light(factors) == 0) find_buried(world_, mesh_, origins_, 0, v, v + 1, buried_);
             }
         });
     if (done && floor_ == 0 && count > 0) {

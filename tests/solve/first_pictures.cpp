@@ -61,7 +61,7 @@ TEST(FirstPictures, AreTrueAfterAnEditAtAnyMoment) {
     Scene scene = test::small_room();
     scene.solve.element_size = 1.2;
     int pictures = 0, between_passes = 0;
-    for (int moment = 0; moment < 400; ++moment) {
+    for (int moment = 0; moment < 400; moment += 3) { // steps
         Solution solution(std::make_shared<const Scene>(scene));
         const Solution::State& s = solution.state();
         bool there = true;
@@ -81,7 +81,7 @@ TEST(FirstPictures, AreTrueAfterAnEditAtAnyMoment) {
             ++pictures;
         }
     }
-    EXPECT_GT(pictures, 100);
+    EXPECT_GT(pictures, 30);
     EXPECT_GT(between_passes, 0);
 }
 
