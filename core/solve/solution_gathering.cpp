@@ -293,6 +293,7 @@ void gather_direct(State& s) {
     }
     s.solving = true;
     s.status.sweeps = 0;
+    s.sweep_uncounted = false;
     // A picture that is there stays until the next step.
     s.indirect_stale = s.rows_in_the_making && s.indirect_irradiance.count > 0;
     s.rows_in_the_making.reset();
@@ -423,27 +424,30 @@ void step_gathering(State& s, const std::atomic<bool>& cancel) {
         return;
     }
     TimeSlice slice(cancel);
-    if (s.status.sweeps == 0 && !s.system.sweeping() && has_no_finite_solution(s)) return fail(s, no_finite_solution);
+    const bool begun = s.status.sweeps > 0 || s.sweep_uncounted || s.system.sweeping();
+    if (!begun && has_no_finite_solution(s)) return fail(s, no_finite_solution);
     const double target = s.fully_refined() ? residual_target : first_residual_target;
+    if (!s.indirect_stale && !s.sweep_uncounted && s.system.relative_residual() > target) {
+        if (!s.system.sweep(s.passes, cancel)) return;
+        s.indirect_stale = s.sweep_uncounted = true;
+        if (s.system.diverged() || s.status.sweeps >= most_gathering_sweeps)
+            return fail(s, "the solver does not converge on this scene; a reflectance is too close to 1");
+        if (slice.over()) return;
+    }
     if (s.indirect_stale) {
         refresh_indirect(s);
         if (slice.over()) return;
-    } else if (s.system.relative_residual() > target) {
-        if (!s.system.sweep(s.passes, cancel)) return;
-        ++s.status.sweeps;
-        if (s.system.diverged() || s.status.sweeps > most_gathering_sweeps)
-            return fail(s, "the solver does not converge on this scene; a reflectance is too close to 1");
-        s.indirect_stale = true;
-        if (slice.over()) return;
-        refresh_indirect(s);
     }
+    // Counted when all that comes of it is there, so that what is counted does not depend on the clock.
+    const auto count_sweep = [&] { s.status.sweeps += std::exchange(s.sweep_uncounted, false); };
     s.status.unshot_share = unshot_flux_share(s);
     s.status.residual = s.system.relative_residual();
-    if (s.system.relative_residual() > target) return;
+    if (s.system.relative_residual() > target) return count_sweep();
     s.rays_unjudged = true;
     const bool refined = s.fully_refined();
     if (refined) plan_passes(s);
     if (slice.over()) return; // what was done is not done again
+    count_sweep();
     if (refined && s.passes.size() >= s.passes_wanted && s.probes.complete()) return settle(s);
     take_stock_of_gathering(s); // a settled solution is judged when it is shown
     if (refined) {

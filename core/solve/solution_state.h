@@ -118,9 +118,10 @@ struct Solution::State {
         std::uint32_t cursor = 0, arriving_cursor = 0;
     };
     std::optional<RowsInTheMaking> rows_in_the_making;
-    bool rows_wait = false;      // all are traced, and not yet given to the system
-    bool indirect_stale = false; // indirect_irradiance is of the sweep before
-    LightBases light_bases;      // of these
+    bool rows_wait = false;       // all are traced, and not yet given to the system
+    bool sweep_uncounted = false; // of a sweep that is through not all is shown
+    bool indirect_stale = false;  // indirect_irradiance is of the sweep before
+    LightBases light_bases;       // of these
     struct BasisInTheMaking {
         static constexpr std::size_t all_as_they_are = no_index; // in place of one luminaire
         Exitances exitance;                                      // what it is the solution of

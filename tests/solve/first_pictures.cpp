@@ -61,14 +61,18 @@ TEST(FirstPictures, AreTrueAfterAnEditAtAnyMoment) {
     Scene scene = test::small_room();
     scene.solve.element_size = 1.2;
     int pictures = 0, between_passes = 0;
-    for (int moment = 0; moment < 400; moment += 3) { // steps
+    const auto is_between_passes = [](const Solution::State& s) {
+        return s.phase == SolvePhase::transport && !s.passes.empty() && !s.pass_open;
+    };
+    for (int moment = -3; moment < 400; moment += 3) { // steps; first the moment between two passes, whenever that is
         Solution solution(std::make_shared<const Scene>(scene));
         const Solution::State& s = solution.state();
         bool there = true;
-        for (int k = 0; k <= moment && there; ++k) there = solution.step(test::never);
+        for (int k = 0; (moment < 0 ? !is_between_passes(s) : k <= moment) && there; ++k)
+            there = solution.step(test::never);
         if (!there) break;
         if (s.passes.empty()) continue; // nothing that could be wrong
-        between_passes += s.phase == SolvePhase::transport && !s.passes.empty() && !s.pass_open;
+        between_passes += is_between_passes(s);
         Scene edited = scene;
         edited.materials[0].reflectance = 0.1;
         edited.luminaires[0].dimmer = 0.02;
