@@ -2,6 +2,7 @@
 # Sourced by editor/run and tests/run: what Lueur is built from (Debian 12 packages), and how.
 
 lueur_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+export CCACHE_BASEDIR=${CCACHE_BASEDIR:-$lueur_root} # what one clone has compiled serves the next
 
 build_packages=(
     g++ cmake ninja-build ccache pkgconf

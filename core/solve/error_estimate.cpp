@@ -15,6 +15,8 @@ namespace {
 
 using State = Solution::State;
 
+constexpr double interval_of_guesses = 6; // standard deviations: what is reflected on is not there yet
+
 void set_relative_error(const ErrorLight& light, Field& field) {
     field.relative_error.assign(field.error.size(), 0);
     for (std::size_t v = 0; v < field.error.size(); ++v) {
@@ -44,12 +46,17 @@ void estimate_traced_error(const State& s, const ErrorMesh& mesh, const ErrorLig
         std::min(1.0, relative_rms(light.total, field.error, field.interpolation_error, mesh.area, mesh.buried));
 }
 
-// One shadow ray for a lamp is a guess: nothing is known of its error before the real ones are traced.
-void know_nothing(const ErrorLight& light, Field& field) {
+// One shadow ray for a lamp is a guess: nothing is known of its error before the real ones are traced, but that light
+// is seldom brighter than it is where it was looked at.
+void know_nothing(const State& s, const ErrorMesh& mesh, const ErrorLight& light, Field& field) {
     if (!(light.mean > 0)) return;
+    const std::uint32_t looked_at = s.direct->sketched_vertices();
+    const auto usual = static_cast<float>(usual_light(light, mesh, looked_at));
     for (std::size_t v = 0; v < field.error.size(); ++v)
-        field.error[v] = std::max(light.total[v], static_cast<float>(light.mean));
+        field.error[v] =
+            v < looked_at ? std::max(light.total[v], usual) : 2 * usual; // direct light and its reflections
     set_relative_error(light, field);
+    field.interval_factor = interval_of_guesses;
     field.scene_error = 1;
 }
 
@@ -88,9 +95,10 @@ void estimate_error(const State& s, Field& field) {
     field.relative_error.assign(count, 0);
     if (count == 0 || !s.direct || s.phase == SolvePhase::mesh) return;
     const bool sketched = s.phase == SolvePhase::sketch || s.phase == SolvePhase::light;
-    if (sketched && !s.is_traced())
-        return know_nothing(
-            error_light(s, make_error_mesh(s.mesh, solved_vertices(s), s.all_buried(), s.buried, false), field), field);
+    if (sketched && !s.is_traced()) {
+        const ErrorMesh mesh = make_error_mesh(s.mesh, solved_vertices(s), s.all_buried(), s.buried, false);
+        return know_nothing(s, mesh, error_light(s, mesh, field), field);
+    }
     const ErrorMesh& mesh = error_mesh_of(s);
     const ErrorLight light = error_light(s, mesh, field);
     if (s.is_traced()) return estimate_traced_error(s, mesh, light, field);
@@ -108,7 +116,7 @@ void estimate_error(const State& s, Field& field) {
     for (std::size_t v = 0; v < count && missing > 0; ++v)
         missing_at[v] = static_cast<float>(missing * (std::max(0.0, double(light.indirect[v])) + missing) /
                                            (mean_indirect + missing));
-    const ErrorFactors factors = fit_model(s, model, probes, missing_at, rho);
+    const ErrorFactors factors = fit_model(s, mesh, light, model, probes, missing_at, rho);
 
     const WavelengthError& channels = s.choice.illuminance_error;
     for (std::size_t v = 0; v < count; ++v) {
@@ -123,7 +131,7 @@ void estimate_error(const State& s, Field& field) {
     std::vector<std::uint8_t> left_out = mesh.buried;
     for (std::size_t v = 0; v < count; ++v) {
         if (!mesh.rim[v]) continue;
-        field.error[v] = std::max(field.error[v], 0.5f * light.total[v]);
+        field.error[v] = std::max(field.error[v], static_cast<float>(std::sqrt(factors.rim)) * light.at_rim(v));
         area[v] *= 0.5f;
         left_out[v] = 0;
     }

@@ -146,11 +146,11 @@ double missing_light(const State& s, const ErrorMesh& mesh, const ErrorLight& li
     return mesh.seen_area > 0 ? light.caught * flux / mesh.seen_area / (1 - rho) : 0;
 }
 
-ErrorFactors fit_model(const State& s, const ErrorModel& model, const std::vector<Residual>& probes,
-                       const std::vector<float>& missing_at, double rho) {
+ErrorFactors fit_model(const State& s, const ErrorMesh& mesh, const ErrorLight& light, const ErrorModel& model,
+                       const std::vector<Residual>& probes, const std::vector<float>& missing_at, double rho) {
     // What shadow rays and gather rays err by is known well, the rest is a guess.
     ErrorFactors factors;
-    Scale direct, hidden, rays, bent, between, readings;
+    Scale direct, hidden, rays, bent, between, readings, rim;
     const auto indirect_found = [&](const Residual& r) {
         const double of_missing = (1 - rho) * read(missing_at, *r.point);
         return r.indirect * r.indirect - r.indirect_noise - of_missing * of_missing;
@@ -167,7 +167,7 @@ ErrorFactors fit_model(const State& s, const ErrorModel& model, const std::vecto
     const auto read_direct = [&](const Residual& r) { return factors.read * r.model_read_direct; };
     const auto read_indirect = [&](const Residual& r) { return factors.read * r.model_read_indirect; };
     // Each probe in its own terms, the wildest cut: what a few slats before a window lack must not be believed of all.
-    constexpr double wildest = 25;
+    constexpr double wildest = 25, most_at_rim = 4; // all of what is shown
     for (const Residual& r : probes)
         if (const double other = r.model_direct + read_direct(r) + r.direct_noise;
             !r.point->between && r.model_hidden > 0)
@@ -194,13 +194,26 @@ ErrorFactors fit_model(const State& s, const ErrorModel& model, const std::vecto
                      r.weight);
         }
     factors.bent = model.known ? bent.factor(0.03, 0.15) : bent.factor(1, 1);
-    for (const Residual& r : probes)
-        if (r.point->between) {
-            const double all = r.direct + r.indirect;
-            const double at_vertices = factors.at(r);
-            const double noise = r.direct_noise + r.indirect_noise;
-            between.add(all * all - noise - at_vertices, r.model_between, at_vertices + noise, r.weight);
+    for (const Residual& r : probes) {
+        if (!r.point->between) continue;
+        const double all = r.direct + r.indirect, noise = r.direct_noise + r.indirect_noise;
+        double at_vertices = 0, at_rim = 0;
+        for (int k = 0; k < 3; ++k) {
+            const std::uint32_t v = r.point->vertices[k];
+            const double weight = double(r.point->weights[k]);
+            if (mesh.rim[v])
+                at_rim += weight * double(light.at_rim(v)) * light.at_rim(v);
+            else
+                at_vertices += weight * factors.at(model, v);
         }
+        // Beside a buried vertex, what is made up there is wrong, not the straight line.
+        const double found = all * all - noise - at_vertices;
+        if (at_rim > 0)
+            rim.add(std::min(found, wildest * at_rim), at_rim, at_vertices + noise, r.weight);
+        else
+            between.add(found, r.model_between, at_vertices + noise, r.weight);
+    }
+    factors.rim = std::min(rim.factor(1, 1), most_at_rim);
     factors.between = between.factor(1, 2);
     return factors;
 }
@@ -208,7 +221,8 @@ ErrorFactors fit_model(const State& s, const ErrorModel& model, const std::vecto
 double interval_factor(const std::vector<Residual>& probes, const std::vector<float>& error, bool knows_its_rays) {
     // Student's t where eight differences tell a variance; patches of one radiosity err a whole patch at a time, with
     // longer tails.
-    const double least = knows_its_rays ? 2.3 : 2.8;
+    double least = knows_its_rays ? 2.3 : 2.8;
+    if (probes.empty()) least = 3.5; // nobody has looked at the tails
     constexpr double normal = 1.96, most = 5;
     std::vector<std::pair<double, double>> far; // standard deviations, area
     double all = 0, noise = 0, stated = 0;

@@ -30,6 +30,7 @@ double missing_light(const Solution::State& state, const ErrorMesh& mesh, const 
 // What variances of the model are to be multiplied with.
 struct ErrorFactors {
     double direct = 1, hidden = 0, rays = 1, bent = 1, between = 1, read = 0;
+    double rim = 1; // of buried vertices beside others
     double at(const ErrorModel& model, std::size_t vertex) const {
         return direct * model.direct[vertex] + hidden * model.hidden[vertex] + rays * model.rays[vertex] +
                bent * model.bent[vertex] + read * (model.read_direct[vertex] + model.read_indirect[vertex]);
@@ -39,7 +40,8 @@ struct ErrorFactors {
                read * (r.model_read_direct + r.model_read_indirect);
     }
 };
-ErrorFactors fit_model(const Solution::State& state, const ErrorModel& model, const std::vector<Residual>& probes,
+ErrorFactors fit_model(const Solution::State& state, const ErrorMesh& mesh, const ErrorLight& light,
+                       const ErrorModel& model, const std::vector<Residual>& probes,
                        const std::vector<float>& missing_at, double rho);
 
 // Errors have longer tails than the normal distribution: so many standard deviations hold 95 % of the residuals at the

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <utility>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -70,6 +71,20 @@ ErrorLight error_light(const Solution::State& s, const ErrorMesh& mesh, const Fi
     if (emitted > 0) light.caught = std::clamp(caught / emitted, 0.0, 1.0);
     if (mesh.seen_area > 0) light.mean /= mesh.seen_area, light.mean_indirect /= mesh.seen_area;
     return light;
+}
+
+double usual_light(const ErrorLight& light, const ErrorMesh& mesh, std::uint32_t vertices) {
+    constexpr double brightest = 0.02;
+    constexpr std::uint32_t enough = 4000; // vertices, for a mean
+    vertices = std::min(vertices, static_cast<std::uint32_t>(light.total.size()));
+    std::vector<std::uint32_t> order;
+    double area = 0, sum = 0, counted = 0;
+    for (std::uint32_t v = 0; v < vertices; v += 1 + vertices / enough)
+        if (!mesh.buried[v]) order.push_back(v), area += mesh.area[v];
+    std::ranges::sort(order, {}, [&](std::uint32_t v) { return std::pair(light.total[v], v); });
+    for (const std::uint32_t v : order)
+        if (counted < (1 - brightest) * area) sum += double(mesh.area[v]) * light.total[v], counted += mesh.area[v];
+    return sum > 0 ? sum / counted : light.mean;
 }
 
 } // namespace lueur

@@ -18,9 +18,15 @@ struct ErrorLight {
     double mean_indirect = 0;
     double mean = 0;   // lx, over the surfaces that are not buried
     double caught = 1; // of the luminaires' flux by the surfaces: 1 in a closed scene
+    // What is shown at a buried vertex is its neighbours' light; beside it, it may be off by half of that.
+    float at_rim(std::size_t v) const { return 0.5f * total[v]; }
 };
 
 // Of the solution as `field` shows it: its irradiance and what is reflected of it.
 ErrorLight error_light(const Solution::State& state, const ErrorMesh& mesh, const Field& field);
+
+// Mean over the first `vertices` without the brightest fiftieth of the area: that of a scene is often the light inside
+// its lamps' housings. lx.
+double usual_light(const ErrorLight& light, const ErrorMesh& mesh, std::uint32_t vertices);
 
 } // namespace lueur

@@ -1,6 +1,7 @@
 #include "core/solve/error_model.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "core/solve/relative_error.h"
 #include "core/solve/solution_steps.h"
@@ -127,9 +128,12 @@ ErrorModel error_model(const State& s, const ErrorMesh& mesh, const ErrorLight& 
                      {},
                      {},
                      false};
-    if (shows_direct_apart(s)) // where it is dark there may be as much as elsewhere
+    const double usual = usual_light(light, mesh, static_cast<std::uint32_t>(light.total.size()));
+    if (shows_direct_apart(s)) // where it is dark there may be as much as elsewhere, but for what luminaires fill
         for (std::size_t v = 0; v < model.hidden.size(); ++v) {
-            const double bright = hidden_share * 0.5 * (double(light.total[v]) + light.mean);
+            const float* seen = s.direct->at_vertex(static_cast<std::uint32_t>(v)); // form factors
+            const double unfilled = std::max(0.0, 1 - std::accumulate(seen, seen + s.direct->emitter_count(), 0.0));
+            const double bright = unfilled * hidden_share * 0.5 * (double(light.total[v]) + usual);
             model.hidden[v] = static_cast<float>(bright * bright);
         }
     else

@@ -149,7 +149,7 @@ bool trace_probes(const World& world, const Mesh& mesh, const DirectTransport& d
                   ErrorProbes& probes) {
     const std::size_t emitters = direct.emitter_count();
     return run_slice(
-        probes.cursor, static_cast<std::uint32_t>(probes.points.size()), 4, cancel,
+        probes.cursor, static_cast<std::uint32_t>(probes.points.size()), 1, cancel,
         [&](std::uint32_t first, std::uint32_t last) {
             for (std::uint32_t i = first; i < last; ++i) {
                 ErrorProbes::Point& p = probes.points[i];

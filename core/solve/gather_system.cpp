@@ -8,6 +8,7 @@
 #include <tbb/parallel_reduce.h>
 
 #include "core/solve/best_vectors.h"
+#include "core/transport/time_slice.h"
 
 namespace lueur {
 
@@ -102,6 +103,13 @@ bool apply_rows(std::span<const GatherPass> passes, RayEnds ends, const ChannelF
     return !cancel.load(std::memory_order_relaxed);
 }
 
+bool apply_rows(std::span<const GatherPass> passes, RayEnds ends, const ChannelField& field, std::uint32_t& cursor,
+                ChannelField& out, const std::atomic<bool>& cancel) {
+    return run_slice(cursor, out.count, 128, cancel, [&](std::uint32_t first, std::uint32_t last) {
+        apply_receivers(passes, ends, field, first, last, out);
+    });
+}
+
 GatherSystem::GatherSystem(std::uint32_t vertices, int channels, std::vector<float> weight)
     : n_(vertices)
     , channels_(channels)
@@ -157,6 +165,11 @@ void GatherSystem::set_rows(const std::vector<GatherPass>& passes) {
     refresh_residual();
 }
 
+void GatherSystem::set_rows(ChannelField gathered_radiosity) {
+    h_ = std::move(gathered_radiosity);
+    refresh_residual();
+}
+
 void GatherSystem::clear() {
     std::fill(x_.values.begin(), x_.values.end(), 0.0f);
     std::fill(h_.values.begin(), h_.values.end(), 0.0f);
@@ -165,6 +178,7 @@ void GatherSystem::clear() {
 
 void GatherSystem::refresh_residual() {
     directions_.clear();
+    sweep_.reset();
     diverged_ = false;
     for_each_vertex(n_, [&](std::uint32_t i) {
         for (int c = 0; c < channels_; ++c) r_[i][c] = b_[i][c] - x_[i][c] + rho_[i][c] * h_[i][c];
@@ -180,28 +194,22 @@ double GatherSystem::relative_residual() const {
     return worst;
 }
 
-bool GatherSystem::sweep(const std::vector<GatherPass>& passes, const std::atomic<bool>& cancel) {
-    Direction next{ChannelField(n_ + 1, channels_), ChannelField(n_, channels_), {}};
-    std::copy(r_.values.begin(), r_.values.end(), next.p.values.begin());
-    if (!apply_rows(passes, RayEnds::coarse, next.p, next.wp, cancel)) return false;
+void GatherSystem::make_orthogonal(Direction& next, const Direction& old) const {
+    const Sums product = weighted_sums(n_, channels_, weight_, [&](std::uint32_t i, int c) {
+        return double(times_a(next, i, c)) * times_a(old, i, c);
+    });
+    std::array<float, max_channels> beta{};
+    for (int c = 0; c < channels_; ++c)
+        beta[c] = old.norm2[c] > 0 ? static_cast<float>(product[c] / old.norm2[c]) : 0.0f;
+    for_each_vertex(n_, [&](std::uint32_t i) {
+        for (int c = 0; c < channels_; ++c) {
+            next.p[i][c] -= beta[c] * old.p[i][c];
+            next.wp[i][c] -= beta[c] * old.wp[i][c];
+        }
+    });
+}
 
-    const auto times_a = [&](const Direction& d, std::uint32_t i, int c) {
-        return d.p[i][c] - rho_[i][c] * d.wp[i][c];
-    };
-    for (const Direction& old : directions_) { // make A p orthogonal to the kept ones
-        const Sums product = weighted_sums(n_, channels_, weight_, [&](std::uint32_t i, int c) {
-            return double(times_a(next, i, c)) * times_a(old, i, c);
-        });
-        std::array<float, max_channels> beta{};
-        for (int c = 0; c < channels_; ++c)
-            beta[c] = old.norm2[c] > 0 ? static_cast<float>(product[c] / old.norm2[c]) : 0.0f;
-        for_each_vertex(n_, [&](std::uint32_t i) {
-            for (int c = 0; c < channels_; ++c) {
-                next.p[i][c] -= beta[c] * old.p[i][c];
-                next.wp[i][c] -= beta[c] * old.wp[i][c];
-            }
-        });
-    }
+void GatherSystem::take_step(Direction next) {
     next.norm2 = weighted_sums(n_, channels_, weight_, [&](std::uint32_t i, int c) {
         const double a = times_a(next, i, c);
         return a * a;
@@ -223,7 +231,36 @@ bool GatherSystem::sweep(const std::vector<GatherPass>& passes, const std::atomi
     for (int c = 0; c < channels_; ++c) diverged_ = diverged_ || !std::isfinite(r_norm2_[c]);
     if (directions_.size() == kept_directions) directions_.erase(directions_.begin());
     directions_.push_back(std::move(next));
-    return true;
+}
+
+bool GatherSystem::sweep(const std::vector<GatherPass>& passes, const std::atomic<bool>& cancel) {
+    if (!sweep_) {
+        sweep_.emplace();
+        sweep_->next = {ChannelField(n_ + 1, channels_), ChannelField(n_, channels_), {}};
+        std::copy(r_.values.begin(), r_.values.end(), sweep_->next.p.values.begin());
+    }
+    if (passes.empty()) sweep_->receiver = n_;
+    TimeSlice slice(cancel);
+    Direction& next = sweep_->next;
+    for (;;) {
+        switch (sweep_->part) {
+        case Sweep::Part::rows:
+            if (!apply_rows(passes, RayEnds::coarse, next.p, sweep_->receiver, next.wp, cancel)) return false;
+            sweep_->part = Sweep::Part::orthogonal;
+            break;
+        case Sweep::Part::orthogonal: // A p to those of the directions that are kept
+            if (sweep_->directions < directions_.size())
+                make_orthogonal(next, directions_[sweep_->directions++]);
+            else
+                sweep_->part = Sweep::Part::step;
+            break;
+        case Sweep::Part::step:
+            take_step(std::move(next));
+            sweep_.reset();
+            return true;
+        }
+        if (slice.over()) return false;
+    }
 }
 
 } // namespace lueur

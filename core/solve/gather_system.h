@@ -21,6 +21,7 @@
 
 #include <array>
 #include <atomic>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,6 +35,10 @@ namespace lueur {
 enum class RayEnds { coarse, fine };
 bool apply_rows(std::span<const GatherPass> passes, RayEnds ends, const ChannelField& field, ChannelField& out,
                 const std::atomic<bool>& cancel);
+
+// One time slice of it, from `cursor` on; true at the end.
+bool apply_rows(std::span<const GatherPass> passes, RayEnds ends, const ChannelField& field, std::uint32_t& cursor,
+                ChannelField& out, const std::atomic<bool>& cancel);
 
 class GatherSystem {
 public:
@@ -49,10 +54,12 @@ public:
                      ChannelField gathered_radiosity);
     void set_guess(ChannelField radiosity);               // n + 1 rows; set_rows and set_sources are still to come
     void set_rows(const std::vector<GatherPass>& passes); // other rays: W U anew
+    void set_rows(ChannelField gathered_radiosity);       // the same where W U is known
     void clear();                                         // U = 0
 
-    bool sweep(const std::vector<GatherPass>& passes,
-               const std::atomic<bool>& cancel); // false when cancelled (nothing changed)
+    // Brings a sweep forward by one time slice; true when it is through, and nothing has changed before.
+    bool sweep(const std::vector<GatherPass>& passes, const std::atomic<bool>& cancel);
+    bool sweeping() const { return sweep_.has_value(); } // one is going on
 
     std::uint32_t count() const { return n_; } // receivers
     double relative_residual() const; // worst channel: |r| / |b|, area-weighted 2-norms; 0 for a channel without light
@@ -63,19 +70,31 @@ public:
     const ChannelField& residual() const { return r_; }  // unshot radiosity
 
 private:
+    struct Direction {
+        ChannelField p, wp;
+        std::array<double, max_channels> norm2{}; // of A p
+    };
+    // A sweep that is going on: what there will be one more direction of.
+    struct Sweep {
+        enum class Part { rows, orthogonal, step };
+        Part part = Part::rows;
+        Direction next;
+        std::uint32_t receiver = 0; // rows: so many are applied
+        std::size_t directions = 0; // orthogonal to so many
+    };
     void set_right_side(const ChannelField& rho, const ChannelField& gathered);
     void refresh_residual();
+    float times_a(const Direction& d, std::uint32_t i, int c) const { return d.p[i][c] - rho_[i][c] * d.wp[i][c]; }
+    void make_orthogonal(Direction& next, const Direction& old) const;
+    void take_step(Direction next);
 
     static constexpr int kept_directions = 4;
     std::uint32_t n_ = 0;
     int channels_ = 0;
     std::vector<float> weight_;
     ChannelField rho_, b_, x_, h_, r_;
-    struct Direction {
-        ChannelField p, wp;
-        std::array<double, max_channels> norm2{}; // of A p
-    };
     std::vector<Direction> directions_;
+    std::optional<Sweep> sweep_;
     std::array<double, max_channels> b_norm2_{}, r_norm2_{};
     bool diverged_ = false;
 };

@@ -43,7 +43,7 @@ double light_sample(const World& world, const Emitter& emitter, double probabili
     const glm::vec3 d = p.position - origin;
     const float r2 = glm::dot(d, d), along_receiver = glm::dot(d, normal), along_emitter = -glm::dot(d, p.normal);
     if (!(along_receiver > 0) || !(along_emitter > 0) || !(r2 > 0)) return 0;
-    if (world.occluded({origin, d, 0, 1 - 1e-4f})) return 0;
+    if (world.occluded({origin, d, 0, shadow_ray_end})) return 0;
     const float r = std::sqrt(r2), cos_receiver = along_receiver / r, cos_emitter = along_emitter / r;
     const double ratio = probability * light_over_cosine(r2, cos_emitter, emitter.area, cos_receiver);
     const double kernel = double(emitter.area) * cos_receiver * cos_emitter / (std::numbers::pi * r2);

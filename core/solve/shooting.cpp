@@ -201,7 +201,7 @@ std::vector<float> Shooting::form_factors_to(std::uint32_t patch) {
             for (std::uint32_t k = 0; k < shadow_rays; ++k) {
                 const glm::vec2 b = triangle_point(r2_point(k, random_offset(seed_ + shots_, i)));
                 const glm::vec3 target = p[0] + b.x * (p[1] - p[0]) + b.y * (p[2] - p[0]) + epsilon * normal;
-                seen += !world_->occluded({origin, target - origin, 0, 1 - 1e-4f});
+                seen += !world_->occluded({origin, target - origin, 0, shadow_ray_end});
             }
             cast += shadow_rays;
             form_factor[i] = static_cast<float>(f) * float(seen) / float(shadow_rays);

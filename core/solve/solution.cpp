@@ -44,13 +44,16 @@ void step_solve(State& s, const std::atomic<bool>& cancel, bool one_shot) {
     case SolverKind::automatic:
     case SolverKind::gathering:
         return step_gathering(s, cancel);
+    // Refinement has asked the probes, unless it was gathering's, which asks them last.
     case SolverKind::shooting:
+        if (!ask_probes(s, cancel)) return;
         return step_shooting(s, cancel, one_shot);
     case SolverKind::overshooting:
     case SolverKind::jacobi:
     case SolverKind::gauss_seidel:
         return step_matrix(s, cancel, one_shot);
     case SolverKind::hierarchical:
+        if (s.direct_light_apart() && !ask_probes(s, cancel)) return;
         return step_hierarchical(s, cancel);
     case SolverKind::reference:
         return step_reference(s, cancel);
@@ -163,6 +166,8 @@ void Solution::update(std::shared_ptr<const Scene> scene, SolveFrom stale) {
         fresh->scene = s.scene;
         fresh->chosen = s.chosen;
         fresh->choice = s.choosing.valid() ? s.choosing.get() : std::move(s.choice);
+        fresh->left_meshes = std::move(s.left_meshes);
+        if (s.making_mesh.valid()) fresh->left_meshes.push_back(std::move(s.making_mesh));
         state_ = std::move(fresh);
         plan_channels(*state_);
         return;
@@ -209,7 +214,6 @@ bool Solution::step(const std::atomic<bool>& cancel, bool one_shot) {
     switch (s.phase) {
     case SolvePhase::mesh:
         step_mesh(s);
-        make_channels(s);
         break;
     case SolvePhase::sketch:
         step_sketch(s, cancel);
@@ -233,7 +237,7 @@ bool Solution::step(const std::atomic<bool>& cancel, bool one_shot) {
     case SolvePhase::failed:
         break;
     }
-    s.status.rays += s.direct->rays() - direct_before;
+    if (s.direct) s.status.rays += s.direct->rays() - direct_before;
     if (s.status.stage == SolveStage::direct) s.status.progress = s.direct->progress();
     s.status.seconds += seconds_since(start);
     if (s.edit_open && s.phase == SolvePhase::settled) {

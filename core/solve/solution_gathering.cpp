@@ -181,6 +181,8 @@ void refresh_indirect(State& s) {
     const LightSamples& samples = s.direct->samples();
     const std::vector<float> least = least_light(s);
     ChannelField& indirect = s.indirect_irradiance;
+    if (indirect.count != s.mesh.indirect_vertex_count)
+        indirect = ChannelField(s.mesh.indirect_vertex_count, s.channels());
     const auto for_all_vertices = [&](const auto& f) {
         tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, indirect.count, 256), [&](const auto& range) {
             for (std::uint32_t v = range.begin(); v < range.end(); ++v) f(v);
@@ -198,6 +200,7 @@ void refresh_indirect(State& s) {
             for (const LightSamples::Reading& r : samples.readings_of(v)) add(r.sample, r.weight);
     });
     smooth(s.smoothing, indirect);
+    s.indirect_stale = false;
     for_all_vertices([&](std::uint32_t v) {
         for (std::size_t c = 0; c < least.size(); ++c) indirect[v][c] = std::max(least[c], indirect[v][c]);
     });
@@ -205,6 +208,8 @@ void refresh_indirect(State& s) {
 
 // What reads samples is smooth already.
 void renew_smoothing(State& s) {
+    if (s.rows_of_smoothing == s.passes_traced) return;
+    s.rows_of_smoothing = s.passes_traced;
     std::vector<std::uint8_t> left_out = s.buried;
     for (std::uint32_t v = 0; v < left_out.size(); ++v)
         left_out[v] = left_out[v] || !s.direct->samples().stands_alone(v);
@@ -247,17 +252,23 @@ void gather_direct(State& s) {
     const std::uint32_t n = s.receivers.count();
     const std::atomic<bool> never{false};
     const bool other_rows = has_other_rows(s);
-    s.indirect_irradiance = ChannelField(s.mesh.indirect_vertex_count, s.channels());
+    if (!s.solving) s.indirect_irradiance = {}; // of other channels, or another solver's
     if (!s.solving || s.system.count() != n) {
         std::optional<ChannelField> guess;
-        if (s.solving && s.system.count() > 0) guess = radiosity_of_more_receivers(s);
+        if (s.rows_in_the_making)
+            guess = std::move(s.rows_in_the_making->guess);
+        else if (s.solving && s.system.count() > 0)
+            guess = radiosity_of_more_receivers(s);
         s.system = GatherSystem(n, s.channels(), receiver_areas(s));
         if (guess) s.system.set_guess(std::move(*guess));
     }
     if (other_rows) {
         s.light_bases.forget();
         s.basis_in_the_making.reset();
-        s.system.set_rows(s.passes);
+        if (s.rows_in_the_making)
+            s.system.set_rows(std::move(s.rows_in_the_making->arriving));
+        else
+            s.system.set_rows(s.passes);
         s.rows_of_system = s.passes_traced;
         renew_smoothing(s);
     }
@@ -267,13 +278,56 @@ void gather_direct(State& s) {
         s.system.set_sources(rho_of_receivers(s), s.gathered_direct, std::move(known->radiosity),
                              std::move(known->arriving));
     } else {
-        s.gathered_direct = ChannelField(n, s.channels());
-        apply_rows(s.passes, RayEnds::fine, reflected_direct(s, s.luminaire_exitance), s.gathered_direct, never);
+        if (s.rows_in_the_making) {
+            s.gathered_direct = std::move(s.rows_in_the_making->gathered);
+        } else {
+            s.gathered_direct = ChannelField(n, s.channels());
+            apply_rows(s.passes, RayEnds::fine, reflected_direct(s, s.luminaire_exitance), s.gathered_direct, never);
+        }
         s.system.set_sources(rho_of_receivers(s), s.gathered_direct);
     }
     s.solving = true;
     s.status.sweeps = 0;
-    refresh_indirect(s);
+    s.sweep_uncounted = false;
+    // A picture that is there stays until the next step.
+    s.indirect_stale = s.rows_in_the_making && s.indirect_irradiance.count > 0;
+    s.rows_in_the_making.reset();
+    if (!s.indirect_stale) refresh_indirect(s);
+}
+
+// What takes long of it, slice by slice; true when the rest is left.
+bool prepare_rows(State& s, const std::atomic<bool>& cancel) {
+    TimeSlice slice(cancel);
+    renew_smoothing(s);
+    if (slice.over()) return false;
+    if (!s.rows_in_the_making) {
+        const std::uint32_t n = s.receivers.count();
+        s.rows_in_the_making.emplace(reflected_direct(s, s.luminaire_exitance), ChannelField(n, s.channels()),
+                                     std::nullopt, ChannelField(n, s.channels()));
+        if (s.solving && s.system.count() > 0 && s.system.count() != n)
+            s.rows_in_the_making->guess = radiosity_of_more_receivers(s);
+        if (slice.over()) return false;
+    }
+    State::RowsInTheMaking& d = *s.rows_in_the_making;
+    if (d.cursor < d.gathered.count) {
+        if (!apply_rows(s.passes, RayEnds::fine, d.reflected, d.cursor, d.gathered, cancel)) return false;
+        if (slice.over()) return false;
+    }
+    const bool from_black = !s.solving || s.system.count() == 0; // then nothing arrives
+    if (!from_black && d.arriving_cursor < d.arriving.count) {
+        const ChannelField& radiosity = d.guess ? *d.guess : s.system.radiosity();
+        if (!apply_rows(s.passes, RayEnds::coarse, radiosity, d.arriving_cursor, d.arriving, cancel)) return false;
+        if (slice.over()) return false;
+    }
+    return true;
+}
+
+// The rows that are traced are given to the system.
+void take_rows(State& s, const std::atomic<bool>& cancel) {
+    if (!prepare_rows(s, cancel)) return;
+    s.rows_wait = false;
+    gather_direct(s);
+    s.phase = SolvePhase::solve;
 }
 
 std::uint32_t most_passes(const State& s) {
@@ -303,7 +357,8 @@ void plan_passes(State& s) {
 } // namespace
 
 void start_gathering(State& s, bool same_sources) {
-    s.only_probes_left = false;
+    s.only_probes_left = s.rows_wait = false;
+    s.rows_in_the_making.reset();
     if (std::exchange(s.pass_open, false)) s.passes.pop_back(); // half traced: again
     if (s.passes.empty()) {
         // The number of rays follows from the settings and the geometry, never from what was there before.
@@ -319,12 +374,14 @@ void start_gathering(State& s, bool same_sources) {
 
 void trace_gathering_rows(State& s, const std::atomic<bool>& cancel) {
     s.status.stage = SolveStage::gathering_rays;
+    if (s.rows_wait) return take_rows(s, cancel);
     if (!s.pass_open) {
         // Rays of the level before end elsewhere now, and are not traced again; on this one they are kept in turn, if
         // there is another to come.
         std::vector<RayHit> hits;
         const std::size_t rays = std::size_t(s.receivers.count()) * rays_per_pass;
         if (s.passes.size() < s.kept_hits.size()) hits = std::move(s.kept_hits[s.passes.size()]);
+        if (!s.refined && s.passes.empty()) hits = hits_of_burial(s.receivers, std::exchange(s.around.hits, {}));
         if (!s.fully_refined()) hits.resize(rays);
         s.passes.push_back(make_gather_pass(s.mesh, s.receivers, std::move(hits)));
         s.pass_buried = s.all_buried();
@@ -352,8 +409,8 @@ void trace_gathering_rows(State& s, const std::atomic<bool>& cancel) {
         plan_passes(s);
         if (s.passes.size() < s.passes_wanted) return;
     }
-    gather_direct(s);
-    s.phase = SolvePhase::solve;
+    s.rows_wait = true;
+    take_rows(s, cancel);
 }
 
 void step_gathering(State& s, const std::atomic<bool>& cancel) {
@@ -362,21 +419,31 @@ void step_gathering(State& s, const std::atomic<bool>& cancel) {
         if (ask_probes(s, cancel)) settle(s);
         return;
     }
-    if (s.status.sweeps == 0 && has_no_finite_solution(s)) return fail(s, no_finite_solution);
+    TimeSlice slice(cancel);
+    const bool begun = s.status.sweeps > 0 || s.sweep_uncounted || s.system.sweeping();
+    if (!begun && has_no_finite_solution(s)) return fail(s, no_finite_solution);
     const double target = s.fully_refined() ? residual_target : first_residual_target;
-    if (s.system.relative_residual() > target) {
+    if (!s.indirect_stale && !s.sweep_uncounted && s.system.relative_residual() > target) {
         if (!s.system.sweep(s.passes, cancel)) return;
-        ++s.status.sweeps;
-        refresh_indirect(s);
-        if (s.system.diverged() || s.status.sweeps > most_gathering_sweeps)
+        s.indirect_stale = s.sweep_uncounted = true;
+        if (s.system.diverged() || s.status.sweeps >= most_gathering_sweeps)
             return fail(s, "the solver does not converge on this scene; a reflectance is too close to 1");
+        if (slice.over()) return;
     }
+    if (s.indirect_stale) {
+        refresh_indirect(s);
+        if (slice.over()) return;
+    }
+    // Counted when all that comes of it is there, so that what is counted does not depend on the clock.
+    const auto count_sweep = [&] { s.status.sweeps += std::exchange(s.sweep_uncounted, false); };
     s.status.unshot_share = unshot_flux_share(s);
     s.status.residual = s.system.relative_residual();
-    if (s.system.relative_residual() > target) return;
+    if (s.system.relative_residual() > target) return count_sweep();
     s.rays_unjudged = true;
     const bool refined = s.fully_refined();
     if (refined) plan_passes(s);
+    if (slice.over()) return; // what was done is not done again
+    count_sweep();
     if (refined && s.passes.size() >= s.passes_wanted && s.probes.complete()) return settle(s);
     take_stock_of_gathering(s); // a settled solution is judged when it is shown
     if (refined) {

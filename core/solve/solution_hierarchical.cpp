@@ -1,6 +1,5 @@
 // Hierarchical radiosity in a solution: links made and refined, then gathered over, pushed and pulled.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -18,12 +17,6 @@ constexpr std::uint32_t vertices_for_leaves = 40000; // that leaves may add to t
 constexpr double direct_share = 0.5; // of the target error that interpolation of direct light is left with
 
 using State = Solution::State;
-
-// Waits for a step's time at most.
-template <typename T>
-bool is_ready(std::future<T>& future) {
-    return future.wait_for(std::chrono::duration<double>(step_seconds)) == std::future_status::ready;
-}
 
 HierarchySources sources_of(const State& s) {
     HierarchySources sources;

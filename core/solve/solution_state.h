@@ -46,6 +46,17 @@ struct Solution::State {
     SolveStatus status;
     std::uint32_t cursor = 0; // of the phase's time slices
 
+    // Made of geometry alone, on a thread of its own.
+    struct MadeMesh {
+        Mesh mesh;
+        std::shared_ptr<const Mesh> published;
+        std::shared_ptr<const World> world;
+        std::vector<glm::vec3> origins;
+        std::vector<float> area;
+    };
+    std::future<MadeMesh> making_mesh;
+    std::vector<std::future<MadeMesh>> left_meshes; // of scenes before, whose threads go on to their end
+
     // Transport: geometry only.
     Mesh mesh;                                  // grows while direct light refines it
     std::shared_ptr<const Mesh> published_mesh; // as of the last level
@@ -98,8 +109,20 @@ struct Solution::State {
     std::vector<std::optional<LuminaireIndex>> object_luminaire;
 
     GatherSystem system;
-    std::uint64_t rows_of_system = 0; // passes_traced when it was given its rows
-    LightBases light_bases;           // of these
+    std::uint64_t rows_of_system = 0;    // passes_traced when it was given its rows
+    std::uint64_t rows_of_smoothing = 0; // and when the smoothing was made
+    // What new rows make of the light there is, in slices, before the system is given them. An edit drops it.
+    struct RowsInTheMaking {
+        ChannelField reflected, gathered;
+        std::optional<ChannelField> guess; // where there are more receivers than before
+        ChannelField arriving;             // of the radiosity there is
+        std::uint32_t cursor = 0, arriving_cursor = 0;
+    };
+    std::optional<RowsInTheMaking> rows_in_the_making;
+    bool rows_wait = false;       // all are traced, and not yet given to the system
+    bool sweep_uncounted = false; // of a sweep that is through not all is shown
+    bool indirect_stale = false;  // indirect_irradiance is of the sweep before
+    LightBases light_bases;       // of these
     struct BasisInTheMaking {
         static constexpr std::size_t all_as_they_are = no_index; // in place of one luminaire
         Exitances exitance;                                      // what it is the solution of
@@ -166,8 +189,8 @@ struct Solution::State {
 
 std::shared_ptr<const Field> compose_field(const Solution::State& state);
 
-// Adds the direct irradiance of luminaires of this exitance at all vertices, per channel; those without any channels are
-// left out. `irradiance` has at least as many rows.
+// Adds the direct irradiance of luminaires of this exitance at all vertices, per channel; those without any channels
+// are left out. `irradiance` has at least as many rows.
 void read_direct(const Solution::State& state, const Exitances& exitance, ChannelField& irradiance);
 
 // Reflected radiosity per channel at a point of a coarse element: rho (H_direct + H_indirect). `radiosity` has one

@@ -6,16 +6,25 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
+#include <future>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/solve/solution_state.h"
+#include "core/transport/time_slice.h"
 
 namespace lueur {
 
 inline constexpr const char* no_finite_solution =
     "no finite solution: the scene is closed and every surface reflects everything; some reflectance must be below 1";
+
+// What a thread of its own makes: waits for a step's time at most.
+template <typename T>
+bool is_ready(std::future<T>& future) {
+    return future.wait_for(std::chrono::duration<double>(step_seconds)) == std::future_status::ready;
+}
 
 // A closed scene in which every surface reflects everything: the radiosity would grow without end. Of geometry and
 // paints alone, so that a solver without rows can say so before it begins.
@@ -45,8 +54,8 @@ double mean_luminous_reflectance(const Solution::State& s);       // over the ar
 std::vector<float> flux_weights(const Solution::State& s);
 
 // Transport that all share: solution_transport.cpp.
-void publish_mesh(Solution::State& s); // the mesh has grown
-void step_mesh(Solution::State& s);
+void publish_mesh(Solution::State& s, std::shared_ptr<const Mesh> copy = nullptr); // the mesh has grown
+void step_mesh(Solution::State& s); // what a thread of its own makes, then the channels
 void step_sketch(Solution::State& s, const std::atomic<bool>& cancel);
 void step_light(Solution::State& s, const std::atomic<bool>& cancel);
 void step_burial(Solution::State& s, const std::atomic<bool>& cancel);

@@ -40,6 +40,16 @@ bool refine_indirect(State& s, const std::atomic<bool>& cancel) {
     return true;
 }
 
+State::MadeMesh make_mesh_and_world(const std::shared_ptr<const Scene>& scene, double element_size) {
+    State::MadeMesh made;
+    made.mesh = make_mesh(*scene, {element_size});
+    made.world = std::make_shared<const World>(made.mesh);
+    made.origins = ray_origins(made.mesh, made.world->epsilon());
+    made.area = vertex_areas(made.mesh);
+    made.published = std::make_shared<const Mesh>(made.mesh);
+    return made;
+}
+
 void take_indirect_level(State& s) {
     Solution::State::IndirectLevel level = std::move(*s.indirect_level);
     s.mesh.indirect_vertex_count = level.vertices;
@@ -55,18 +65,28 @@ void take_indirect_level(State& s) {
 
 } // namespace
 
-void publish_mesh(State& s) {
-    s.published_mesh = std::make_shared<const Mesh>(s.mesh);
+void publish_mesh(State& s, std::shared_ptr<const Mesh> copy) {
+    s.published_mesh = copy ? std::move(copy) : std::make_shared<const Mesh>(s.mesh);
     s.status.vertices = static_cast<std::uint32_t>(s.mesh.vertices.size());
     s.status.elements = static_cast<std::uint32_t>(s.mesh.elements.size());
 }
 
 void step_mesh(State& s) {
     s.status.stage = SolveStage::meshing;
-    s.element_size = s.scene->solve.element_size > 0 ? s.scene->solve.element_size : automatic_element_size(*s.scene);
-    s.mesh = make_mesh(*s.scene, {s.element_size});
-    s.world = std::make_shared<const World>(s.mesh);
-    s.origins = ray_origins(s.mesh, s.world->epsilon());
+    if (!s.left_meshes.empty()) { // one after the other: two would take the memory of both
+        if (!is_ready(s.left_meshes.back())) return;
+        s.left_meshes.clear();
+    }
+    if (!s.making_mesh.valid()) {
+        s.element_size =
+            s.scene->solve.element_size > 0 ? s.scene->solve.element_size : automatic_element_size(*s.scene);
+        s.making_mesh = std::async(std::launch::async, make_mesh_and_world, s.scene, s.element_size);
+    }
+    if (!is_ready(s.making_mesh) || (s.choosing.valid() && !is_ready(s.choosing))) return;
+    State::MadeMesh made = s.making_mesh.get();
+    s.mesh = std::move(made.mesh);
+    s.world = std::move(made.world);
+    s.origins = std::move(made.origins);
     s.buried.assign(s.mesh.coarse_vertex_count, 0);
     s.around.lit.assign(s.mesh.coarse_vertex_count, 0);
     s.around.back = s.around.near = s.around.lit;
@@ -75,12 +95,15 @@ void step_mesh(State& s) {
     LightSamples samples;
     if (is_sampled(s.mesh.coarse_vertex_count))
         samples = make_light_samples(*s.scene, s.mesh, *s.world, s.origins, cell_of(s), most_samples);
+    else if (s.solver() == SolverKind::gathering)
+        s.around.hits.resize(std::size_t(s.mesh.coarse_vertex_count) * burial_rays);
     const DirectParams params{.smallest_edge = static_cast<float>(s.element_size / 8),
                               .element_size = static_cast<float>(s.element_size),
                               .most_vertices = s.mesh.coarse_vertex_count + fine_vertices(s.mesh.coarse_vertex_count)};
     s.direct = std::make_unique<DirectTransport>(*s.world, s.mesh, make_emitters(*s.scene), params, std::move(samples));
-    s.coarse_area = s.indirect_area = vertex_areas(s.mesh);
-    publish_mesh(s);
+    s.coarse_area = s.indirect_area = std::move(made.area);
+    make_channels(s);
+    publish_mesh(s, std::move(made.published));
     s.cursor = 0;
     s.phase = SolvePhase::sketch;
 }
@@ -101,22 +124,25 @@ void step_burial(State& s, const std::atomic<bool>& cancel) {
     const bool sampled = samples.count() > 0;
     const std::uint32_t places = sampled ? samples.count() : s.mesh.coarse_vertex_count;
     if (s.cursor < places) {
-        if (!run_slice(s.cursor, places, 64, cancel, [&](std::uint32_t first, std::uint32_t last) {
-                for (std::uint32_t i = first; i < last; ++i) {
-                    const std::uint32_t v = sampled ? samples.vertex[i] : i;
-                    find_buried(*s.world, s.mesh, s.origins, v, v + 1, s.buried, &s.around);
-                }
-            }))
-            return;
-        for (std::uint32_t v = 0; sampled && v < s.mesh.coarse_vertex_count; ++v) {
+        const bool done = run_slice(s.cursor, places, 64, cancel, [&](std::uint32_t first, std::uint32_t last) {
+            for (std::uint32_t i = first; i < last; ++i) {
+                const std::uint32_t v = sampled ? samples.vertex[i] : i;
+                find_buried(*s.world, s.mesh, s.origins, s.scene->solve.seed, v, v + 1, s.buried, &s.around);
+            }
+        });
+        for (std::uint32_t v = 0; done && sampled && v < s.mesh.coarse_vertex_count; ++v) {
             const std::uint32_t of = samples.vertex[samples.of_vertex[v]];
             s.buried[v] = s.buried[of];
             s.around.lit[v] = s.around.lit[of], s.around.back[v] = s.around.back[of];
             s.around.near[v] = s.around.near[of], s.around.distance[v] = s.around.distance[of];
         }
+        return;
+    }
+    if (s.overlap.cursor < s.mesh.coarse_element_count) {
+        find_overlap(s.mesh, *s.world, s.buried, cancel, s.overlap);
+        return;
     }
     s.indirect_distance = s.around.distance;
-    if (!find_overlap(s.mesh, *s.world, s.buried, cancel, s.overlap)) return;
     s.status.rays += std::uint64_t(places) * burial_rays + s.mesh.coarse_element_count;
     s.receivers = sampled ? receivers_of(samples, s.buried) : make_receivers(*s.scene, s.mesh, s.buried, cell_of(s));
     s.status.matrix_patches = matrix_size(s.mesh, s.scene->solve.matrix_memory).patches;

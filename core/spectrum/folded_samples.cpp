@@ -5,9 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Dense>
-
 #include "core/spectrum/colour_difference.h"
+#include "core/spectrum/dense_algebra.h"
 #include "core/spectrum/subset_misfit.h"
 #include "core/spectrum/visible_grid.h"
 
@@ -104,7 +103,7 @@ MatrixXd constrained(const MatrixXd& gram, const MatrixXd& right, const Eigen::R
         sides.row(n + s).setConstant(scale * total[s]);
     }
     sides.topRows(n) = right;
-    return matrix.partialPivLu().solve(sides).topRows(n);
+    return solve_linear(matrix, sides).topRows(n);
 }
 
 } // namespace
@@ -144,14 +143,14 @@ FoldedFit::State::Fitted FoldedFit::State::fit(const LightFit& light, const Matr
     const Index n = p.cols(), rows = p.rows();
     Fitted best{MatrixXd::Zero(n, 3), std::numeric_limits<double>::infinity()};
     ArrayXd emphasis = importance.array().square();
-    MatrixXd gram(3 * n, 3 * n), weighted(rows, 6 * n), shared(n, 6 * n);
+    MatrixXd gram(3 * n, 3 * n), weighted(rows, 6 * n);
     VectorXd right(3 * n);
     for (int round = 0; round < rounds; ++round) {
         right.setZero();
         for (int i = 0; i < 6; ++i)
             weighted.middleCols(i * n, n).noalias() =
                 (emphasis * light.metric[static_cast<std::size_t>(i)]).matrix().asDiagonal() * p;
-        shared.noalias() = p.transpose() * weighted;
+        const MatrixXd shared = transposed_times(p, weighted);
         for (int a = 0; a < 3; ++a)
             for (int b = 0; b < 3; ++b) {
                 gram.block(a * n, b * n, n, n) = shared.middleCols(triangle[a][b] * n, n);
@@ -218,7 +217,7 @@ FoldedFit::FoldedFit(const SpectralContent& content)
             functionals.row(j) << moment * xyz.x, moment * xyz.y, moment * xyz.z, watts[static_cast<std::size_t>(j)];
         }
         LightFit light;
-        const MatrixXd targets = full.transpose() * functionals;
+        const MatrixXd targets = transposed_times(full, functionals);
         light.watts = targets.col(3);
         light.watt_white = functionals.col(3).sum();
         light.white = functionals.leftCols(3).colwise().sum();
@@ -335,9 +334,9 @@ FoldedWeights FoldedFit::weights(std::size_t index, const std::vector<double>& n
     if (light.watt_white > 0) {
         const VectorXd importance = state_->importance / light.watt_white;
         const MatrixXd weighted = importance.asDiagonal() * p;
-        MatrixXd gram = weighted.transpose() * weighted;
+        MatrixXd gram = transposed_times(weighted, weighted);
         gram.diagonal().array() += ridge * gram.diagonal().mean();
-        const VectorXd w = constrained(gram, weighted.transpose() * importance.cwiseProduct(light.watts),
+        const VectorXd w = constrained(gram, transposed_times(weighted, importance.cwiseProduct(light.watts)),
                                        Eigen::RowVectorXd::Constant(1, light.watt_white), 1);
         std::copy(w.begin(), w.end(), weights.watt.begin());
     }

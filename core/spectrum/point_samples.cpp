@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include <Eigen/Dense>
-
+#include "core/spectrum/dense_algebra.h"
 #include "core/spectrum/visible_grid.h"
 
 namespace lueur {
@@ -58,20 +57,23 @@ Orthogonal orthogonal_polynomials(const VectorXd& weight, int degree) {
     return result;
 }
 
-// Zeros of the polynomial of that degree, nm, increasing (Golub & Welsch 1969, with the unsymmetric matrix, since beta
-// may be negative).
+// Zeros of the polynomial of the highest degree, nm, increasing: all are real and apart by more than a nanometre. Not
+// eigenvalues of the tridiagonal matrix (Golub & Welsch 1969): beta may be negative, and it is then not symmetric.
 std::vector<double> gauss_nodes(const Orthogonal& polynomials) {
-    const int n = static_cast<int>(polynomials.alpha.size());
-    MatrixXd matrix = MatrixXd::Zero(n, n);
-    for (int i = 0; i < n; ++i) {
-        matrix(i, i) = polynomials.alpha[static_cast<std::size_t>(i)];
-        if (i + 1 < n) matrix(i, i + 1) = 1, matrix(i + 1, i) = polynomials.beta[static_cast<std::size_t>(i) + 1];
+    constexpr double apart = 0.5; // nm
+    const auto value = [&](double nm) {
+        return polynomials.value(static_cast<int>(polynomials.alpha.size()), scaled(nm));
+    };
+    std::vector<double> zeros;
+    for (double nm = observer_first_nm; nm < observer_last_nm; nm += apart) {
+        double low = nm, high = nm + apart;
+        const bool rises = value(low) < 0;
+        if (rises == (value(high) < 0)) continue;
+        for (double middle = 0.5 * (low + high); middle > low && middle < high; middle = 0.5 * (low + high))
+            (rises == (value(middle) < 0) ? low : high) = middle;
+        zeros.push_back(low);
     }
-    const VectorXd zeros = Eigen::EigenSolver<MatrixXd>(matrix, false).eigenvalues().real();
-    std::vector<double> nm;
-    for (const double zero : zeros) nm.push_back(nm_from_scaled(zero));
-    std::sort(nm.begin(), nm.end());
-    return nm;
+    return zeros;
 }
 
 // Weights that integrate the polynomials up to nm.size() - 1 exactly under `weight`. `polynomials`: any orthogonal
@@ -91,7 +93,7 @@ VectorXd interpolatory_weights(const std::vector<double>& nm, const VectorXd& we
             values(degree, k) = polynomials.value(degree, scaled(nm[static_cast<std::size_t>(k)])) / norm;
         integrals[degree] = sum / norm;
     }
-    return values.fullPivLu().solve(integrals);
+    return solve_linear(values, integrals);
 }
 
 // Cells of 380..780 nm between the middles of neighbours.

@@ -1,8 +1,7 @@
 #include "core/spectrum/rgb_basis.h"
 
-#include <Eigen/Dense>
-
 #include "core/spectrum/colour.h"
+#include "core/spectrum/dense_algebra.h"
 #include "core/spectrum/reflectance_nodes.h"
 #include "core/spectrum/rgb_spectrum.h"
 
@@ -70,7 +69,7 @@ std::array<Spectrum, 3> solve_basis() {
         }
         matrix.rightCols(colours + on) = matrix.bottomRows(colours + on).transpose();
         matrix.bottomRightCorner(colours + on, colours + on).setZero();
-        const VectorXd solution = matrix.partialPivLu().solve(right);
+        const VectorXd solution = solve_linear(matrix, right);
         x = solution.head(unknowns);
         const VectorXd slack = bound * x - limit;
         VectorXd push = VectorXd::Zero(bounds); // multipliers, positive where the bound holds x up

@@ -1,6 +1,6 @@
 #include "core/spectrum/rgb_spectrum.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <limits>
 
+#include <Eigen/Cholesky>
+
+#include "core/spectrum/dense_algebra.h"
+
 namespace lueur {
 
 namespace {
@@ -17,11 +21,9 @@ constexpr double condition_weight = 1e5; // of the mean diagonal
 } // namespace
 
 SubsetMisfit::SubsetMisfit(const MatrixXd& columns, const VectorXd& target, double total, double ridge)
-    : gram_(MatrixXd::Zero(columns.cols(), columns.cols()))
-    , right_(columns.transpose() * target)
+    : gram_(transposed_times(columns, columns))
+    , right_(transposed_times(columns, target))
     , square_(target.squaredNorm()) {
-    gram_.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose());
-    gram_.triangularView<Eigen::StrictlyUpper>() = gram_.transpose();
     const double mean = gram_.diagonal().mean(), heavy = condition_weight * mean;
     gram_.diagonal().array() += ridge * mean;
     gram_.array() += heavy;

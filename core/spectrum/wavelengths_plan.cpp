@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <fmt/format.h>
 
 #include "core/spectrum/colour_difference.h"
+#include "core/spectrum/dense_algebra.h"
 #include "core/spectrum/folded_samples.h"
 #include "core/spectrum/visible_grid.h"
 
@@ -67,7 +68,7 @@ public:
             for (int c = 0; c < 3; ++c) truth.white[c] = functionals.col(c).sum();
             // A light of one line may have no Z: its Lab is taken against a white that has a little of everything.
             truth.lab_white = glm::max(truth.white, Xyz(1e-3 * truth.white.y));
-            const MatrixXd xyz = products.transpose() * functionals;
+            const MatrixXd xyz = transposed_times(products, functionals);
             if (truth.white.y > 0)
                 for (Eigen::Index i = 0; i < xyz.rows(); ++i)
                     truth.lab.push_back(lab_from_xyz({xyz(i, 0), xyz(i, 1), xyz(i, 2)}, truth.lab_white));
@@ -95,7 +96,7 @@ public:
             // Lamps keep their luminous flux in whatever channels there are (core/scene/luminaire.h).
             const double flux = weights.col(1).sum();
             if (flux > 0) weights *= truth.white.y / flux;
-            const MatrixXd seen = products.transpose() * weights;
+            const MatrixXd seen = transposed_times(products, weights);
             const auto add = [&](const Lab& lab, const Xyz& xyz) {
                 const double difference = delta_e_2000(lab, lab_from_xyz(xyz, truth.lab_white));
                 prediction.worst = std::max(prediction.worst, difference);

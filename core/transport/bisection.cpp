@@ -1,14 +1,32 @@
 #include "core/transport/bisection.h"
 
+#include "core/transport/time_slice.h"
+
 namespace lueur {
 
 Bisection::Bisection(Mesh& mesh)
+    : Bisection(mesh, adopts_later) {
+    const std::atomic<bool> never{false};
+    while (!adopt(never)) {
+    }
+}
+
+Bisection::Bisection(Mesh& mesh, AdoptsLater)
     : mesh_(mesh) {
     std::size_t leaves = 0;
     for (const MeshNode& node : mesh.nodes) leaves += node.children == no_index;
     edge_leaves_.reserve(leaves * 2); // at most three halves, and what is split
-    for (std::uint32_t n = 0; n < mesh.nodes.size(); ++n)
-        if (mesh.nodes[n].children == no_index) attach(n);
+}
+
+bool Bisection::adopt(const std::atomic<bool>& cancel) {
+    if (!adopts_) return true;
+    TimeSlice slice(cancel, 256);
+    for (; adopted_ < mesh_.nodes.size(); ++adopted_) {
+        if (slice.over()) return false;
+        if (mesh_.nodes[adopted_].children == no_index) attach(adopted_);
+    }
+    adopts_ = false;
+    return true;
 }
 
 void Bisection::attach(std::uint32_t node) {

@@ -3,6 +3,7 @@
 // mesh stays conforming.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <vector>
 
@@ -14,6 +15,9 @@ namespace lueur {
 class Bisection {
 public:
     explicit Bisection(Mesh& mesh); // adopts the leaves of `mesh`; the mesh must outlive it
+    enum AdoptsLater { adopts_later };
+    Bisection(Mesh& mesh, AdoptsLater); // call adopt until it is true before anything else
+    bool adopt(const std::atomic<bool>& cancel);
 
     // Splits leaf `node` (and neighbours, as conformity asks). New vertices and nodes are appended to the mesh.
     void split(std::uint32_t node);
@@ -34,6 +38,8 @@ private:
 
     Mesh& mesh_;
     EdgeTable edge_leaves_;
+    std::uint32_t adopted_ = 0; // so many nodes have been looked at
+    bool adopts_ = true;
 };
 
 // The list of leaves anew, after splitting.

@@ -209,7 +209,7 @@ float emitter_kernel(glm::vec3 origin, glm::vec3 normal, const EmitterPoint& p) 
 }
 
 bool sees(const World& world, glm::vec3 origin, glm::vec3 target) {
-    return !world.occluded({origin, target - origin, 0, 1 - 1e-4f});
+    return !world.occluded({origin, target - origin, 0, shadow_ray_end});
 }
 
 EmitterPoint emitter_point(const Emitter& emitter, glm::vec2 u) {

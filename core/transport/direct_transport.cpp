@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <utility>
 
 #include "core/transport/gather_rows.h"
 #include "core/transport/many_lights.h"
@@ -16,9 +17,10 @@ namespace lueur {
 namespace {
 
 constexpr std::uint32_t most_sketched = 32; // luminaires that a first guess asks
-constexpr float look_share = 0.3f;      // of what a place counts for, where one of many luminaires is only looked at
-constexpr float small_size = 0.25f;     // of the coarse element size: what is smaller counts by its area
-constexpr float long_edge_share = 0.4f; // of the coarse element size: longer edges are looked at in any case
+constexpr float look_share = 0.3f;         // of what a place counts for, where one of many luminaires is only looked at
+constexpr float small_size = 0.25f;        // of the coarse element size: what is smaller counts by its area
+constexpr float long_edge_share = 0.4f;    // of the coarse element size: longer edges are looked at in any case
+constexpr std::uint32_t places_a_task = 8; // one takes 40 us in an office of 14 luminaires: few, for steps are short
 
 } // namespace
 
@@ -155,49 +157,55 @@ bool DirectTransport::sketch(const std::atomic<bool>& cancel) {
 }
 
 bool DirectTransport::light_vertices(const std::atomic<bool>& cancel) {
-    const std::uint32_t count = row_count();
+    const std::uint32_t count = row_count(), before = row_cursor_;
     if (lit_rows_ == count && !spread_pending_) return true;
-    const bool done = run_slice(row_cursor_, count, 32, cancel, [&](std::uint32_t first, std::uint32_t last) {
-        for (std::uint32_t r = first; r < last; ++r) {
-            const std::uint32_t v = vertex_of(r);
-            if (!known_[r])
-                rows_[r] = row_at(origins_[v], mesh_.vertices[v].normal, std::sqrt(row_area_[r]), Care::kept);
-            buried_[v] = 0;
-            if (guessed_light(rows_[r]) == 0) find_buried(world_, mesh_, origins_, v, v + 1, buried_);
-        }
-    });
+    const bool done =
+        run_slice(row_cursor_, count, places_a_task, cancel, [&](std::uint32_t first, std::uint32_t last) {
+            for (std::uint32_t r = first; r < last; ++r) {
+                const std::uint32_t v = vertex_of(r);
+                if (!known_[r])
+                    rows_[r] = row_at(origins_[v], mesh_.vertices[v].normal, std::sqrt(row_area_[r]), Care::kept);
+                buried_[v] = 0;
+                if (guessed_light(rows_[r]) == 0) find_buried(world_, mesh_, origins_, 0, v, v + 1, buried_);
+            }
+        });
     if (!done) return false;
-    lit_rows_ = count;
-    for (std::uint32_t v = 0; v < sampled_vertices(); ++v) buried_[v] = buried_[samples_.vertex[samples_.of_vertex[v]]];
-    read_guessed_light();
+    if (lit_rows_ != count) {
+        lit_rows_ = count;
+        for (std::uint32_t v = 0; v < sampled_vertices(); ++v)
+            buried_[v] = buried_[samples_.vertex[samples_.of_vertex[v]]];
+        read_guessed_light();
+    }
     if (floor_ == 0 && count > 0) {
         double sum = 0;
         for (const float light : guessed_) sum += light;
         floor_ = static_cast<float>(0.25 * sum / double(guessed_.size())); // darker: a relative error is not seen
     }
-    if (spread_pending_) {
-        spread_deviations();
-        spread_pending_ = false;
-    }
+    if (!spread_pending_) return true;
+    if (before < count) return false; // the rest in a step of its own
+    spread_deviations();
+    spread_pending_ = false;
     return true;
 }
 
-void DirectTransport::begin_level() {
+bool DirectTransport::begin_level(const std::atomic<bool>& cancel) {
     // A short edge whose ends agree hides no more than a shadow thinner than itself; one shorter than a group is wide,
     // between vertices that read samples, is not looked at.
     const float long_edge = long_edge_share * params_.element_size;
-    edges_.collect(params_.smallest_edge, [&](std::uint32_t a, std::uint32_t b) {
+    const auto wanted = [&](std::uint32_t a, std::uint32_t b) {
         if (buried_[a] && buried_[b]) return false;
         const float length = glm::distance(mesh_.vertices[a].position, mesh_.vertices[b].position);
         if (!samples_.stands_alone(a) && !samples_.stands_alone(b) && length <= samples_.cell) return false;
         const float at_a = guessed_[a], at_b = guessed_[b];
         return length > long_edge || std::abs(at_a - at_b) > params_.tolerance * std::max({at_a, at_b, floor_});
-    });
+    };
+    if (!edges_.collect(params_.smallest_edge, wanted, cancel)) return false;
     edge_cursor_ = 0;
     edge_rows_.assign(edges_.edges().size(), {});
+    return true;
 }
 
-void DirectTransport::split_bent() {
+void DirectTransport::judge() {
     std::vector<float> bent(edges_.edges().size(), 0); // the misfit where it is too large
     for (std::size_t e = 0; e < bent.size(); ++e) {
         const EdgeRefinement::Edge& edge = edges_.edges()[e];
@@ -209,9 +217,13 @@ void DirectTransport::split_bent() {
         bent[e] = misfit > params_.tolerance && !inside ? misfit : 0;
         if (bent[e] == 0 && !inside) misfit_sum_ += double(misfit) * misfit, ++misfit_count_;
     }
+    edges_.judge(std::move(bent));
+}
+
+void DirectTransport::split_bent() {
     const std::uint32_t before = static_cast<std::uint32_t>(mesh_.vertices.size());
-    edges_.split(bent, params_.most_vertices);
     const std::uint32_t first_row = row_count();
+    edges_.split(params_.most_vertices);
     follow_vertices();
     const std::uint32_t after = static_cast<std::uint32_t>(mesh_.vertices.size());
     // Of a single luminaire a new vertex at a middle that was looked at is lit already; the others are lit now.
@@ -283,7 +295,7 @@ void DirectTransport::spread_deviations() {
 void DirectTransport::follow_mesh() {
     follow_vertices();
     if (!refined_) edges_.follow_mesh(); // refine() goes on from here
-    level_begun_ = false;
+    part_ = Part::prepare;
 }
 
 // New vertices have what their parents have.
@@ -315,26 +327,43 @@ void DirectTransport::follow_vertices() {
 
 bool DirectTransport::refine(const std::atomic<bool>& cancel, std::uint32_t levels) {
     if (refined() || level_ >= levels) return true;
-    if (!level_begun_) {
-        begin_level();
-        level_begun_ = true;
+    switch (part_) { // each a step of its own
+    case Part::prepare:
+        if (edges_.prepare(cancel)) part_ = Part::begin;
+        return false;
+    case Part::begin:
+        if (begin_level(cancel)) part_ = Part::look;
+        return false;
+    case Part::look:
+        if (!look(cancel)) return false;
+        judge();
+        part_ = Part::plan;
+        return false;
+    case Part::plan:
+        if (edges_.plan_split(cancel)) part_ = Part::split;
+        return false;
+    case Part::split:
+        split_bent();
+        part_ = Part::prepare;
+        edge_cursor_ = 0;
+        ++level_;
+        break;
     }
-    const float epsilon = world_.epsilon();
-    const bool done = run_slice(edge_cursor_, static_cast<std::uint32_t>(edges_.edges().size()), 32, cancel,
-                                [&](std::uint32_t first, std::uint32_t last) {
-                                    for (std::uint32_t e = first; e < last; ++e) {
-                                        const EdgeRefinement::Edge& edge = edges_.edges()[e];
-                                        const EdgeRefinement::Place middle = edges_.middle(edge, epsilon);
-                                        const float length = glm::distance(mesh_.vertices[edge.a].position,
-                                                                           mesh_.vertices[edge.b].position);
-                                        edge_rows_[e] = row_at(middle.origin, middle.normal, length, Care::looked_at);
-                                    }
-                                });
-    if (!done) return false;
-    split_bent();
-    level_begun_ = false;
-    ++level_;
     return refined_ || level_ >= levels;
+}
+
+bool DirectTransport::look(const std::atomic<bool>& cancel) {
+    const float epsilon = world_.epsilon();
+    return run_slice(edge_cursor_, static_cast<std::uint32_t>(edges_.edges().size()), places_a_task, cancel,
+                     [&](std::uint32_t first, std::uint32_t last) {
+                         for (std::uint32_t e = first; e < last; ++e) {
+                             const EdgeRefinement::Edge& edge = edges_.edges()[e];
+                             const EdgeRefinement::Place middle = edges_.middle(edge, epsilon);
+                             const float length =
+                                 glm::distance(mesh_.vertices[edge.a].position, mesh_.vertices[edge.b].position);
+                             edge_rows_[e] = row_at(middle.origin, middle.normal, length, Care::looked_at);
+                         }
+                     });
 }
 
 } // namespace lueur

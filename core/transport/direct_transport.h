@@ -56,6 +56,10 @@ public:
     void follow_mesh();
 
     std::size_t lit_vertices() const { return buried_.size(); } // that it knows of
+    std::uint32_t sketched_vertices() const {                   // the first ones
+        if (samples_.count() == 0) return sketch_cursor_;
+        return sketch_cursor_ < row_count() ? 0 : static_cast<std::uint32_t>(guessed_.size());
+    }
     std::size_t emitter_count() const { return emitters_.size(); }
     const std::vector<Emitter>& emitters() const { return emitters_; }
     // Irradiance at all vertices, were the luminaires as guessed (guessed_exitances).
@@ -97,7 +101,9 @@ private:
     void follow_places();
     void read_guessed_light();
     void spread_deviations();
-    void begin_level();
+    bool begin_level(const std::atomic<bool>& cancel);
+    bool look(const std::atomic<bool>& cancel);
+    void judge();
     void split_bent();
     std::uint32_t sampled_vertices() const { return static_cast<std::uint32_t>(samples_.of_vertex.size()); }
     std::uint32_t row_of(std::uint32_t v) const { // no_index: it reads samples
@@ -125,7 +131,8 @@ private:
     std::uint32_t sketch_cursor_ = 0, row_cursor_ = 0, lit_rows_ = 0;
 
     std::uint32_t edge_cursor_ = 0;
-    bool level_begun_ = false, refined_ = false;
+    enum class Part { prepare, begin, look, plan, split } part_ = Part::prepare; // of a level
+    bool refined_ = false;
     std::uint32_t level_ = 0;    // so many are done
     bool spread_pending_ = true; // spread_deviations, when the vertices are lit
     float floor_ = 0;

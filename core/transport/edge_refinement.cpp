@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/transport/time_slice.h"
+
 namespace lueur {
 
 namespace {
+
+constexpr std::uint32_t leaves_a_look = 64; // at the clock
 
 using Worth = std::pair<float, std::uint32_t>; // misfit by squared length, leaf
 
@@ -36,16 +40,30 @@ EdgeRefinement::EdgeRefinement(Mesh& mesh, Room room)
 
 void EdgeRefinement::follow_mesh() {
     bisection_.reset();
+    if (std::exchange(collecting_, false)) next_node_ = first_node_; // again
 }
 
-void EdgeRefinement::collect(float smallest, const std::function<bool(std::uint32_t a, std::uint32_t b)>& wanted) {
-    edges_.clear();
-    edge_slot_.clear();
-    open_.clear();
-    if (!bisection_) bisection_.emplace(mesh_);
-    for (; next_node_ < mesh_.nodes.size(); ++next_node_)
+bool EdgeRefinement::prepare(const std::atomic<bool>& cancel) {
+    if (!bisection_) bisection_.emplace(mesh_, Bisection::adopts_later);
+    return bisection_->adopt(cancel);
+}
+
+bool EdgeRefinement::collect(float smallest, const std::function<bool(std::uint32_t a, std::uint32_t b)>& wanted,
+                             const std::atomic<bool>& cancel) {
+    if (!std::exchange(collecting_, true)) {
+        edges_.clear();
+        edge_slot_.clear();
+        open_.clear();
+        cursor_ = 0;
+    }
+    TimeSlice slice(cancel, leaves_a_look);
+    for (; next_node_ < mesh_.nodes.size(); ++next_node_) {
+        if (slice.over()) return false;
         if (mesh_.nodes[next_node_].children == no_index) open_.push_back(next_node_);
-    for (const std::uint32_t n : open_) {
+    }
+    for (; cursor_ < open_.size(); ++cursor_) {
+        if (slice.over()) return false;
+        const std::uint32_t n = open_[cursor_];
         const glm::uvec3 v = mesh_.nodes[n].vertices;
         const int longest = bisection_->longest_edge(n);
         if (bisection_->edge_length(v[longest], v[(longest + 1) % 3]) < smallest * smallest) continue;
@@ -61,6 +79,9 @@ void EdgeRefinement::collect(float smallest, const std::function<bool(std::uint3
             edges_[where->second].elements += 1;
         }
     }
+    first_node_ = next_node_;
+    collecting_ = false;
+    return true;
 }
 
 EdgeRefinement::Place EdgeRefinement::middle(const Edge& edge, float epsilon) const {
@@ -70,27 +91,41 @@ EdgeRefinement::Place EdgeRefinement::middle(const Edge& edge, float epsilon) co
     return {ray_origin(0.5f * (a.position + b.position), normal, edge.inward / float(edge.elements), epsilon), normal};
 }
 
-void EdgeRefinement::split(std::span<const float> bent, std::uint32_t most_vertices) {
-    for (std::size_t e = 0; e < edges_.size(); ++e)
-        if (bent[e] == 0) straight_.emplace(Bisection::edge_key(edges_[e].a, edges_[e].b), 1);
-    std::vector<Worth> wanted;
-    for (const std::uint32_t n : open_) {
+void EdgeRefinement::judge(std::vector<float> bent) {
+    bent_ = std::move(bent);
+    wanted_.clear();
+    cursor_ = 0;
+}
+
+bool EdgeRefinement::plan_split(const std::atomic<bool>& cancel) {
+    TimeSlice slice(cancel, leaves_a_look);
+    for (; cursor_ < edges_.size(); ++cursor_) {
+        if (slice.over()) return false;
+        if (bent_[cursor_] == 0) straight_.emplace(Bisection::edge_key(edges_[cursor_].a, edges_[cursor_].b), 1);
+    }
+    for (; cursor_ < edges_.size() + open_.size(); ++cursor_) {
+        if (slice.over()) return false;
+        const std::uint32_t n = open_[cursor_ - edges_.size()];
         const glm::uvec3 v = mesh_.nodes[n].vertices;
         float worst = 0;
         for (int k = 0; k < 3; ++k) {
             const auto slot = edge_slot_.find(Bisection::edge_key(v[k], v[(k + 1) % 3]));
-            if (slot != edge_slot_.end()) worst = std::max(worst, bent[slot->second]);
+            if (slot != edge_slot_.end()) worst = std::max(worst, bent_[slot->second]);
         }
         const int longest = bisection_->longest_edge(n);
-        if (worst > 0) wanted.emplace_back(worst * bisection_->edge_length(v[longest], v[(longest + 1) % 3]), n);
+        if (worst > 0) wanted_.emplace_back(worst * bisection_->edge_length(v[longest], v[(longest + 1) % 3]), n);
     }
-    std::sort(wanted.begin(), wanted.end(), [](const auto& a, const auto& b) {
+    return true;
+}
+
+void EdgeRefinement::split(std::uint32_t most_vertices) {
+    std::sort(wanted_.begin(), wanted_.end(), [](const auto& a, const auto& b) {
         return a.first != b.first ? a.first > b.first : a.second < b.second;
     });
     const float least = room_ == Room::for_finer_levels
-                            ? least_worth(wanted, double(most_vertices) - double(mesh_.vertices.size()))
+                            ? least_worth(wanted_, double(most_vertices) - double(mesh_.vertices.size()))
                             : 0;
-    for (const auto& [worth, n] : wanted) {
+    for (const auto& [worth, n] : wanted_) {
         if (mesh_.vertices.size() >= most_vertices || worth < least) break;
         if (mesh_.nodes[n].children == no_index) bisection_->split(n);
     }

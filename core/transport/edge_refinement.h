@@ -2,11 +2,13 @@
 // because it was not what the ends had promised. What is looked at is the caller's.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "core/transport/bisection.h"
@@ -32,18 +34,25 @@ public:
     };
 
     void follow_mesh(); // it was cut by someone else
-    bool begun() const { return next_node_ > 0; }
+    // Before collect: finds the leaves at each edge, one time slice of it; true when all are known.
+    bool prepare(const std::atomic<bool>& cancel);
+    bool begun() const { return first_node_ > 0; }
 
-    // A new level: the edges of the leaves made since the last one, but of leaves whose longest edge is shorter than
-    // `smallest`, m, those that were straight before, and those that are not `wanted`.
-    void collect(float smallest, const std::function<bool(std::uint32_t a, std::uint32_t b)>& wanted);
+    // A new level, one time slice of it, true at the end: the edges of the leaves made since the last one, but of
+    // leaves whose longest edge is shorter than `smallest`, m, those that were straight before, and those that are not
+    // `wanted`.
+    bool collect(float smallest, const std::function<bool(std::uint32_t a, std::uint32_t b)>& wanted,
+                 const std::atomic<bool>& cancel);
     const std::vector<Edge>& edges() const { return edges_; }
     Place middle(const Edge& edge, float epsilon) const;
 
-    // bent: of each edge, by how much its middle is off; 0: straight. Splits the leaves at bent edges (and neighbours,
-    // as conformity asks), the largest misfits by area first, until there are `most_vertices`, and lists the leaves
-    // anew.
-    void split(std::span<const float> bent, std::uint32_t most_vertices);
+    // bent: of each edge, by how much its middle is off; 0: straight.
+    void judge(std::vector<float> bent);
+    // One time slice of finding the leaves at bent edges; true when all are known.
+    bool plan_split(const std::atomic<bool>& cancel);
+    // Then splits them (and neighbours, as conformity asks), the largest misfits by area first, until there are
+    // `most_vertices`, and lists the leaves anew.
+    void split(std::uint32_t most_vertices);
     // The edge of this level whose middle a new vertex is; no_index: it was made for conformity.
     std::uint32_t edge_of(std::uint32_t vertex) const;
 
@@ -55,7 +64,11 @@ private:
     std::unordered_map<std::uint64_t, std::uint32_t> edge_slot_;
     std::unordered_map<std::uint64_t, std::uint8_t> straight_; // edges of earlier levels whose middle was right
     std::vector<std::uint32_t> open_;                          // leaves of this level
-    std::uint32_t next_node_ = 0;
+    std::uint32_t next_node_ = 0, first_node_ = 0;             // first_node_: where the last whole level ended
+    bool collecting_ = false;
+    std::size_t cursor_ = 0; // of open_, or of the edges and then of open_
+    std::vector<float> bent_;
+    std::vector<std::pair<float, std::uint32_t>> wanted_; // misfit by area, leaf
 };
 
 } // namespace lueur

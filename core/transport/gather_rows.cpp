@@ -28,19 +28,32 @@ std::uint32_t pick_vertex(const glm::uvec3& v, glm::vec3 w, const std::vector<st
     return w[2] > 0 ? v[2] : (w[1] > 0 ? v[1] : v[0]);
 }
 
+// Every so many rays, hits may be known or not.
+constexpr std::uint32_t rays_at_once = burial_rays;
+static_assert(rays_per_pass % rays_at_once == 0);
+
+// Rays of a vertex, from number `first` of the sequence of their set on.
+std::array<Hit, rays_at_once> trace_from(const World& world, const Mesh& mesh, const std::vector<glm::vec3>& origins,
+                                         std::uint32_t vertex, std::uint32_t seed, std::uint32_t set,
+                                         std::uint32_t first) {
+    std::array<glm::vec3, rays_at_once> directions;
+    std::array<Hit, rays_at_once> hits;
+    const Frame frame(mesh.vertices[vertex].normal);
+    const glm::vec2 offset = random_offset(hash(seed, set), vertex);
+    for (std::uint32_t k = 0; k < rays_at_once; ++k)
+        directions[k] = frame.world(cosine_direction(r2_point(first + k, offset)));
+    world.closest(origins[vertex], directions, hits);
+    return hits;
+}
+
 } // namespace
 
-void find_buried(const World& world, const Mesh& mesh, const std::vector<glm::vec3>& origins, std::uint32_t first,
-                 std::uint32_t last, std::vector<std::uint8_t>& buried, Surroundings* around) {
-    std::array<glm::vec3, burial_rays> directions;
-    std::array<Hit, burial_rays> hits;
+void find_buried(const World& world, const Mesh& mesh, const std::vector<glm::vec3>& origins, std::uint32_t seed,
+                 std::uint32_t first, std::uint32_t last, std::vector<std::uint8_t>& buried, Surroundings* around) {
     for (std::uint32_t i = first; i < last; ++i) {
-        const Frame frame(mesh.vertices[i].normal);
         std::uint8_t back_faces = 0, lit = 0, near = 0;
         float nearness = 0;
-        for (std::uint32_t k = 0; k < burial_rays; ++k)
-            directions[k] = frame.world(cosine_direction(r2_point(k, {0, 0})));
-        world.closest(origins[i], directions, hits);
+        const auto hits = trace_from(world, mesh, origins, i, seed, 0, 0);
         for (const Hit& hit : hits) {
             back_faces = static_cast<std::uint8_t>(back_faces + hit.back_face);
             lit = static_cast<std::uint8_t>(lit + (hit.element != no_index));
@@ -51,6 +64,9 @@ void find_buried(const World& world, const Mesh& mesh, const std::vector<glm::ve
         if (!around) continue;
         around->back[i] = back_faces, around->lit[i] = lit, around->near[i] = near;
         around->distance[i] = nearness > 0 ? burial_rays / nearness : 1e30f;
+        if (around->hits.empty()) continue;
+        for (std::size_t k = 0; k < burial_rays; ++k)
+            around->hits[i * burial_rays + k] = {hits[k].element, hits[k].b1, hits[k].b2};
     }
 }
 
@@ -64,6 +80,14 @@ LookAround look_around(const World& world, glm::vec3 origin, glm::vec3 normal) {
         if (hit.any()) nearness += 1 / std::max(hit.t, 1e-20f);
     }
     return {back_faces > most_back_faces, nearness > 0 ? burial_rays / nearness : 1e30f};
+}
+
+std::vector<RayHit> hits_of_burial(const Receivers& receivers, const std::vector<RayHit>& hits) {
+    std::vector<RayHit> of_pass(std::size_t(receivers.count()) * rays_per_pass);
+    for (std::size_t i = 0; i < receivers.count() && !hits.empty(); ++i)
+        std::copy_n(hits.begin() + std::ptrdiff_t(receivers.vertex[i] * burial_rays), burial_rays,
+                    of_pass.begin() + std::ptrdiff_t(i * rays_per_pass));
+    return of_pass;
 }
 
 GatherPass make_gather_pass(const Mesh& mesh, const Receivers& receivers, std::vector<RayHit> hits) {
@@ -81,21 +105,16 @@ std::uint64_t trace_gather_rays(const World& world, const Mesh& mesh, const std:
     const std::size_t known = out.hits.size() / rays_per_pass;
     std::uint64_t traced = 0;
     std::array<RayHit, rays_per_pass> fresh;
-    std::array<glm::vec3, rays_per_pass> directions;
-    std::array<Hit, rays_per_pass> met;
     for (std::uint32_t i = first; i < last; ++i) {
         if (receivers.buried[i]) continue; // all its rays stay outside
         const std::uint32_t vertex = receivers.vertex[i];
         const std::size_t row = std::size_t(i) * rays_per_pass;
         RayHit* hits = i < known ? out.hits.data() + row : fresh.data();
-        if (i >= known || hits[0].element == RayHit::untraced) {
-            const Frame frame(mesh.vertices[vertex].normal);
-            const glm::vec2 offset = random_offset(hash(seed, pass % independent_sets), i);
-            for (std::uint32_t k = 0; k < rays_per_pass; ++k)
-                directions[k] = frame.world(cosine_direction(r2_point(first_point + k, offset)));
-            world.closest(origins[vertex], directions, met);
-            for (std::size_t k = 0; k < rays_per_pass; ++k) hits[k] = {met[k].element, met[k].b1, met[k].b2};
-            traced += rays_per_pass;
+        for (std::uint32_t k = 0; k < rays_per_pass; k += rays_at_once) {
+            if (i < known && hits[k].element != RayHit::untraced) continue;
+            const auto met = trace_from(world, mesh, origins, vertex, seed, pass % independent_sets, first_point + k);
+            for (std::size_t r = 0; r < rays_at_once; ++r) hits[k + r] = {met[r].element, met[r].b1, met[r].b2};
+            traced += rays_at_once;
         }
         for (std::size_t k = 0; k < rays_per_pass; ++k) {
             if (hits[k].element == no_index) continue;

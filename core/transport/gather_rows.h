@@ -21,18 +21,28 @@ inline constexpr int rays_per_pass = 32;
 inline constexpr std::uint32_t burial_rays = 16; // of find_buried, a vertex
 inline constexpr int independent_sets = 2;       // pass p belongs to set p % 2
 
+// Where a ray met the coarse mesh; no_index: nothing that can shine.
+struct RayHit {
+    static constexpr std::uint32_t untraced = no_index - 1;
+    std::uint32_t element = untraced;
+    float b1 = 0, b2 = 0;
+};
+
 // What the burial rays of each vertex meet: so many a lit side, so many a black back; the others leave the scene. near:
 // how many meet something within `near_distance`, m.
 struct Surroundings {
     std::vector<std::uint8_t> lit, back, near;
     std::vector<float> distance; // to what is around, harmonic mean, m
     float near_distance = 0;
+    std::vector<RayHit> hits; // burial_rays a vertex; none when they are not to be kept
 };
 
 // Coarse vertices whose rays mostly meet back faces lie inside a solid (a floor vertex under a block): they take no
 // part. Receivers in [first, last) of `origins`; the result is written to buried[first..last), and to `around` there.
-void find_buried(const World& world, const Mesh& mesh, const std::vector<glm::vec3>& origins, std::uint32_t first,
-                 std::uint32_t last, std::vector<std::uint8_t>& buried, Surroundings* around = nullptr);
+// The rays are the first ones of pass 0 of a receiver at that vertex.
+void find_buried(const World& world, const Mesh& mesh, const std::vector<glm::vec3>& origins, std::uint32_t seed,
+                 std::uint32_t first, std::uint32_t last, std::vector<std::uint8_t>& buried,
+                 Surroundings* around = nullptr);
 
 // The same for one place, from where its rays start.
 struct LookAround {
@@ -40,13 +50,6 @@ struct LookAround {
     float distance; // to what is around, harmonic mean, m
 };
 LookAround look_around(const World& world, glm::vec3 origin, glm::vec3 normal);
-
-// Where a ray met the coarse mesh; no_index: nothing that can shine.
-struct RayHit {
-    static constexpr std::uint32_t untraced = no_index - 1;
-    std::uint32_t element = untraced;
-    float b1 = 0, b2 = 0;
-};
 
 struct GatherPass {
     // receivers * rays_per_pass of each. The receiver each ray ended at, drawn among those of the vertices of the
@@ -63,6 +66,9 @@ struct GatherPass {
 
 // hits: of rays of the same pass on the mesh before, of the same receivers, then the first ones.
 GatherPass make_gather_pass(const Mesh& mesh, const Receivers& receivers, std::vector<RayHit> hits = {});
+
+// For pass 0: what burial rays have met at the receivers' vertices. hits: burial_rays a vertex, or none.
+std::vector<RayHit> hits_of_burial(const Receivers& receivers, const std::vector<RayHit>& hits);
 
 // Traces the rays of receivers [first, last) of pass number `pass` (but for those whose hits are there) and finds where
 // they end. origins, buried: of all vertices, coarse ones first. Deterministic for a seed, whatever the chunks and

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -83,9 +84,11 @@ bool IndirectRefinement::is_close(std::uint32_t a, std::uint32_t b) const {
 }
 
 // The edges that may be bent, and the vertices whose light has to be known for them.
-void IndirectRefinement::begin_level() {
-    edges_.collect(edges_.begun() ? params_.smallest_edge : params_.smallest_element,
-                   [this](std::uint32_t a, std::uint32_t b) { return is_close(a, b); });
+bool IndirectRefinement::begin_level(const std::atomic<bool>& cancel) {
+    if (!edges_.collect(
+            edges_.begun() ? params_.smallest_edge : params_.smallest_element,
+            [this](std::uint32_t a, std::uint32_t b) { return is_close(a, b); }, cancel))
+        return false;
     corners_.clear();
     cursor_ = 0;
     std::vector<std::uint8_t> wanted(mesh_.vertices.size(), 0);
@@ -93,9 +96,10 @@ void IndirectRefinement::begin_level() {
         for (const std::uint32_t end : {edge.a, edge.b})
             if (light_[end] < 0 && !buried_[end] && !wanted[end]) wanted[end] = 1, corners_.push_back(end);
     seen_.assign(edges_.edges().size() + corners_.size(), {});
+    return true;
 }
 
-void IndirectRefinement::split_bent() {
+void IndirectRefinement::judge() {
     const std::vector<EdgeRefinement::Edge>& edges = edges_.edges();
     for (std::size_t c = 0; c < corners_.size(); ++c) light_[corners_[c]] = seen_[edges.size() + c].light;
     std::vector<float> bent(edges.size(), 0);
@@ -112,8 +116,12 @@ void IndirectRefinement::split_bent() {
         const float misfit = std::abs(here - guess) / std::max(floor_, here + direct / ends);
         if (misfit > params_.tolerance) bent[e] = misfit;
     }
+    edges_.judge(std::move(bent));
+}
+
+void IndirectRefinement::split_bent() {
     const std::uint32_t before = static_cast<std::uint32_t>(mesh_.vertices.size());
-    edges_.split(bent, params_.most_vertices);
+    edges_.split(params_.most_vertices);
     const std::uint32_t after = static_cast<std::uint32_t>(mesh_.vertices.size());
     origins_ = ray_origins(mesh_, world_.epsilon());
     std::vector<std::uint32_t> unseen; // made for conformity
@@ -137,13 +145,33 @@ void IndirectRefinement::split_bent() {
 
 bool IndirectRefinement::step(const std::atomic<bool>& cancel) {
     if (done_) return true;
-    if (!level_begun_) {
-        begin_level();
-        level_begun_ = true;
+    switch (part_) { // each a step of its own
+    case Part::prepare:
+        if (edges_.prepare(cancel)) part_ = Part::begin;
+        return false;
+    case Part::begin:
+        if (begin_level(cancel)) part_ = Part::look;
+        return false;
+    case Part::look:
+        if (!look(cancel)) return false;
+        judge();
+        part_ = Part::plan;
+        return false;
+    case Part::plan:
+        if (edges_.plan_split(cancel)) part_ = Part::split;
+        return false;
+    case Part::split:
+        split_bent();
+        part_ = Part::prepare;
+        return done_;
     }
+    return done_;
+}
+
+bool IndirectRefinement::look(const std::atomic<bool>& cancel) {
     const float epsilon = world_.epsilon();
     const std::vector<EdgeRefinement::Edge>& edges = edges_.edges();
-    const auto look = [&](std::uint32_t first, std::uint32_t last) {
+    const auto gather_at = [&](std::uint32_t first, std::uint32_t last) {
         for (std::uint32_t i = first; i < last; ++i) {
             if (i < edges.size()) {
                 const EdgeRefinement::Place middle = edges_.middle(edges[i], epsilon);
@@ -154,10 +182,7 @@ bool IndirectRefinement::step(const std::atomic<bool>& cancel) {
             }
         }
     };
-    if (!run_slice(cursor_, static_cast<std::uint32_t>(seen_.size()), 16, cancel, look)) return false;
-    split_bent();
-    level_begun_ = false;
-    return done_;
+    return run_slice(cursor_, static_cast<std::uint32_t>(seen_.size()), 16, cancel, gather_at);
 }
 
 } // namespace lueur

@@ -48,7 +48,9 @@ private:
     };
     Seen gather(glm::vec3 origin, glm::vec3 normal) const;
     bool is_close(std::uint32_t a, std::uint32_t b) const;
-    void begin_level();
+    bool begin_level(const std::atomic<bool>& cancel);
+    bool look(const std::atomic<bool>& cancel);
+    void judge();
     void split_bent();
 
     const World& world_;
@@ -67,7 +69,8 @@ private:
     std::vector<std::uint32_t> corners_; // vertices that the edges of this level ask for
     std::vector<Seen> seen_;             // of the edges, then of the corners
     std::uint32_t cursor_ = 0;
-    bool level_begun_ = false, done_ = false;
+    enum class Part { prepare, begin, look, plan, split } part_ = Part::prepare; // of a level
+    bool done_ = false;
     mutable std::atomic<std::uint64_t> rays_{0};
 };
 

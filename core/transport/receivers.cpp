@@ -1,18 +1,35 @@
 #include "core/transport/receivers.h"
 
+#include <array>
 #include <cmath>
-#include <map>
-#include <tuple>
+#include <unordered_map>
 
 namespace lueur {
+
+namespace {
+
+// Object, place, look, buried.
+using Key = std::array<std::int64_t, 8>;
+struct KeyHash {
+    std::size_t operator()(const Key& key) const {
+        std::uint64_t hash = 0x9e3779b97f4a7c15ull;
+        for (const std::int64_t k : key) {
+            hash = (hash ^ static_cast<std::uint64_t>(k)) * 0xff51afd7ed558ccdull;
+            hash ^= hash >> 32;
+        }
+        return hash;
+    }
+};
+
+} // namespace
 
 Receivers make_receivers(const Scene& scene, const Mesh& mesh, const std::vector<std::uint8_t>& buried, float cell) {
     struct Cluster {
         glm::vec3 sum{0};
         std::uint32_t count = 0;
     };
-    using Key = std::tuple<std::uint32_t, int, int, int, int, int, int, bool>;
-    std::map<Key, std::uint32_t> known;
+    std::unordered_map<Key, std::uint32_t, KeyHash> known;
+    known.reserve(mesh.coarse_vertex_count);
     std::vector<Cluster> clusters;
     Receivers receivers;
     receivers.of_vertex.resize(mesh.coarse_vertex_count);
@@ -21,7 +38,7 @@ Receivers make_receivers(const Scene& scene, const Mesh& mesh, const std::vector
         const glm::ivec3 place(glm::floor(vertex.position / cell));
         const glm::ivec3 look(glm::round(2.0f * vertex.normal));
         const auto object = static_cast<std::uint32_t>(at(scene.geometry->surfaces[vertex.surface].object));
-        const Key key{object, place.x, place.y, place.z, look.x, look.y, look.z, buried[v] != 0};
+        const Key key{object, place.x, place.y, place.z, look.x, look.y, look.z, buried[v]};
         const auto [found, fresh] = known.try_emplace(key, static_cast<std::uint32_t>(clusters.size()));
         if (fresh) clusters.push_back({});
         clusters[found->second].sum += vertex.position;

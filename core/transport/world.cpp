@@ -162,7 +162,7 @@ std::uint32_t World::hidden(glm::vec3 origin, std::span<const glm::vec3> targets
         valid[k] = k < targets.size() ? -1 : 0;
         query.org_x[k] = origin.x, query.org_y[k] = origin.y, query.org_z[k] = origin.z;
         query.dir_x[k] = direction.x, query.dir_y[k] = direction.y, query.dir_z[k] = direction.z;
-        query.tnear[k] = 0, query.tfar[k] = 1 - 1e-4f;
+        query.tnear[k] = 0, query.tfar[k] = shadow_ray_end;
         query.time[k] = 0, query.mask[k] = ~0u, query.flags[k] = 0;
     }
     RTCIntersectContext context;

@@ -20,6 +20,9 @@ struct Ray {
     float t_min = 0, t_max = 1e30f;
 };
 
+// t_max of a ray whose direction reaches just to a point of a surface: rounding must not let that surface hide it.
+inline constexpr float shadow_ray_end = 1 - 1e-4f;
+
 struct Hit {
     std::uint32_t element =
         no_index; // coarse element whose lit side was hit; no_index: nothing, or the black back of a one-sided surface

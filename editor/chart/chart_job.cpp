@@ -24,26 +24,27 @@ ChartJob::~ChartJob() {
 }
 
 void ChartJob::cancel() {
-    cancel_.store(true);
+    if (making_) making_->cancel.store(true);
 }
 
 void ChartJob::start(std::shared_ptr<const Scene> scene, ChartParams params) {
     cancel();
-    if (thread_.joinable()) thread_.join();
-    cancel_.store(false);
-    {
-        const std::lock_guard lock(mutex_);
-        view_ = {true, 0, {}, scene, nullptr};
-    }
-    thread_ = std::jthread([this, scene = std::move(scene), params = std::move(params)] { run(scene, params); });
+    making_ = std::make_shared<Making>();
+    making_->view = {true, 0, {}, scene, nullptr};
+    thread_ = std::thread([this, before = std::move(thread_), making = making_, scene = std::move(scene),
+                           params = std::move(params)]() mutable {
+        if (before.joinable()) before.join();
+        run(*making, *scene, params);
+    });
 }
 
 ChartJob::View ChartJob::view() const {
-    const std::lock_guard lock(mutex_);
-    return view_;
+    if (!making_) return {};
+    const std::lock_guard lock(making_->mutex);
+    return making_->view;
 }
 
-void ChartJob::run(std::shared_ptr<const Scene> scene, const ChartParams& params) {
+void ChartJob::run(Making& making, const Scene& scene, const ChartParams& params) const {
     using Clock = std::chrono::steady_clock;
 #ifdef __linux__
     setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 10); // the window comes first; refused is no harm
@@ -61,10 +62,10 @@ void ChartJob::run(std::shared_ptr<const Scene> scene, const ChartParams& params
             published = done;
         }
         {
-            const std::lock_guard lock(mutex_);
-            view_.share = share;
-            view_.what = what;
-            if (chart) view_.chart = std::move(chart);
+            const std::lock_guard lock(making.mutex);
+            making.view.share = share;
+            making.view.what = what;
+            if (chart) making.view.chart = std::move(chart);
         }
         if (wake_) wake_();
     };
@@ -73,18 +74,18 @@ void ChartJob::run(std::shared_ptr<const Scene> scene, const ChartParams& params
     try {
         // Half of the processors: the live solve and the window go on beside it.
         tbb::task_arena arena(std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / 2));
-        MethodChart made = arena.execute([&] { return run_chart(*scene, params, cancel_, progress); });
-        if (made.points == 0 && !cancel_) what = "the scene has no lit surface to measure on";
+        MethodChart made = arena.execute([&] { return run_chart(scene, params, making.cancel, progress); });
+        if (made.points == 0 && !making.cancel) what = "the scene has no lit surface to measure on";
         if (!made.runs.empty()) chart = std::make_shared<const MethodChart>(std::move(made));
     } catch (const std::exception& error) {
         what = error.what();
     }
     {
-        const std::lock_guard lock(mutex_);
-        view_.running = false;
-        view_.share = 1;
-        view_.what = what;
-        if (chart) view_.chart = std::move(chart);
+        const std::lock_guard lock(making.mutex);
+        making.view.running = false;
+        making.view.share = 1;
+        making.view.what = what;
+        if (chart) making.view.chart = std::move(chart);
     }
     if (wake_) wake_();
 }

@@ -1,7 +1,8 @@
 // A chart of methods in the making, on a thread of its own, for a window that goes on.
 //
-// Threads: every member may be called from any one thread at a time; none waits for the runs but the destructor and
-// start(), which wait for a step of what is being cancelled: some 10 ms, more where a matrix or a final gather begins.
+// Threads: every member may be called from any one thread at a time; none waits for the runs but the destructor, which
+// waits for a step of what is being cancelled: some 10 ms, more where a matrix or a final gather begins. A chart that
+// is begun while another ends waits for that one on its own thread, so that the two do not slow each other down.
 #pragma once
 
 #include <atomic>
@@ -35,13 +36,17 @@ public:
     View view() const;
 
 private:
-    void run(std::shared_ptr<const Scene> scene, const ChartParams& params);
+    // One chart, of the window's thread and its own.
+    struct Making {
+        std::atomic<bool> cancel{false};
+        mutable std::mutex mutex;
+        View view; // under the mutex
+    };
+    void run(Making& making, const Scene& scene, const ChartParams& params) const;
 
     const std::function<void()> wake_;
-    std::atomic<bool> cancel_{false};
-    mutable std::mutex mutex_;
-    View view_; // under the mutex
-    std::jthread thread_;
+    std::shared_ptr<Making> making_; // the newest
+    std::thread thread_;             // of the newest; it joins the one before
 };
 
 } // namespace lueur

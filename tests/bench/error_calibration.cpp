@@ -1,8 +1,8 @@
 // Is the estimated error right? For each scene and budget (rays, time, mesh, solver): the true relative RMS error over
 // the estimated one, and the share of true values within the stated 95 % intervals.
 //
-//     error_calibration SCENE... [--budgets rays,cuts,mesh,solvers] [--points N] [--paths N] [--seconds N]
-//                       [--dump FILE.csv]
+//     error_calibration SCENE... [--budgets rays,cuts,mesh,solvers] [--solvers jacobi,...] [--element-size METRES]
+//                       [--points N] [--paths N] [--seconds N] [--dump FILE.csv]
 //
 // Truth: paths at vertices and at surface points; their own variance is subtracted. --seconds: of solving, a scene;
 // what runs then is judged where it is, what comes after is left out. With --dump every point judged
@@ -24,12 +24,16 @@ const std::atomic<bool> never{false};
 
 struct Options {
     int points = 200, paths = 4096;
-    double seconds = 1e9;
-    std::string budgets = "rays,cuts,mesh,solvers";
+    double seconds = 1e9, element_size = 0;
+    std::string budgets = "rays,cuts,mesh,solvers", solvers = "shooting,gauss_seidel,jacobi,overshooting,hierarchical";
     std::FILE* dump = nullptr;
 
-    bool wants(std::string_view word) const {
-        return ("," + budgets + ",").find(fmt::format(",{},", word)) != budgets.npos;
+    bool wants(std::string_view word) const { return has(budgets, word); }
+    bool wants(SolverKind kind) const { return wants("solvers") && has(solvers, to_string(kind)); }
+
+private:
+    static bool has(const std::string& list, std::string_view word) {
+        return ("," + list + ",").find(fmt::format(",{},", word)) != list.npos;
     }
 };
 
@@ -111,7 +115,7 @@ void run(Scene scene, const Options& options, Tally& tally) {
     Bench bench{options, tally, options.seconds};
     scene.solve.target_error = 0.001;
     scene.solve.solver = SolverKind::gathering;
-    const double size = automatic_element_size(scene);
+    const double size = options.element_size > 0 ? options.element_size : automatic_element_size(scene);
     for (const double factor : {1.0, 2.0, 0.6}) {
         if (factor != 1 && !options.wants("mesh")) continue;
         scene.solve.element_size = factor * size;
@@ -136,11 +140,12 @@ void run(Scene scene, const Options& options, Tally& tally) {
                              bench.solve(scene, all, share), truth);
             }
         }
-        if (factor != 1 || !options.wants("solvers")) continue;
+        if (factor != 1) continue;
         scene.solve.max_rays = SolveSettings{}.max_rays;
         for (const SolverKind kind : {SolverKind::shooting, SolverKind::gauss_seidel, SolverKind::jacobi,
                                       SolverKind::overshooting, SolverKind::hierarchical})
             for (const double target : {0.1, 0.02}) {
+                if (!options.wants(kind)) continue;
                 if ((kind == SolverKind::jacobi || kind == SolverKind::overshooting) && target == 0.1) continue;
                 if (!(bench.left > 0)) return;
                 scene.solve.target_error = target;
@@ -163,6 +168,8 @@ int main(int argc, char** argv) {
     program.add_option("--paths", options.paths)->check(CLI::Range(16, 1 << 24));
     program.add_option("--seconds", options.seconds, "of solving, a scene");
     program.add_option("--budgets", options.budgets);
+    program.add_option("--solvers", options.solvers, "of the budget of that name");
+    program.add_option("--element-size", options.element_size, "m; of the mesh x1, else as each scene's size asks for");
     program.add_option("--dump", dump);
     if (const auto status = bench::parse(program, argc, argv)) return *status;
     if (!dump.empty()) options.dump = std::fopen(dump.c_str(), "w");

@@ -173,7 +173,7 @@ Rates shadow_rates(double stage_rate, const Solution& solution, const PlainEmbre
             const EmitterPoint point = emitter_point(emitters[number % emitters.size()], r2_point(number, {0, 0}));
             const glm::vec3 to = point.position - origins[v];
             if (glm::dot(to, s.mesh.vertices[v].normal) <= 0 || glm::dot(to, point.normal) >= 0) continue;
-            rays.push_back({origins[v], to, 0, 1 - 1e-4f});
+            rays.push_back({origins[v], to, 0, shadow_ray_end});
         }
     return {stage_rate, rays.empty() ? 0 : static_cast<double>(rays.size()) / embree.occluded(rays)};
 }

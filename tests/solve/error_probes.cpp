@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/scene/solver_words.h"
 #include "core/solve/solution_state.h"
 #include "core/transport/direct_light.h"
 #include "tests/support/scenes.h"
@@ -52,4 +53,31 @@ TEST(ErrorProbes, SeeASliverOfANearLuminaire) {
     EXPECT_GT(before_slats, 10) << "the backs of the slats are looked at";
     EXPECT_NEAR(found / truth, 1, 0.02);
     EXPECT_LT(std::sqrt(square / area), 0.1 * truth / area);
+}
+
+// Gathering asks its probes last: a solver that takes over from it before asks for itself, and knows as much of its own
+// error as if it had been there from the beginning.
+TEST(ErrorProbes, AreAskedByASolverThatTakesOver) {
+    Scene scene = test::small_room();
+    scene.solve.element_size = 0.8;
+    scene.solve.target_error = 0.05;
+    for (const SolverKind kind : {SolverKind::shooting, SolverKind::hierarchical}) {
+        scene.solve.solver = SolverKind::gathering;
+        Solution solution(std::make_shared<const Scene>(scene));
+        while (!(solution.state().fully_refined() && solution.state().passes.size() > 0) &&
+               solution.step(test::never)) {
+        }
+        ASSERT_FALSE(solution.state().probes.complete()) << "the middle is over";
+        Scene other = scene;
+        other.solve.solver = kind;
+        solution.update(std::make_shared<const Scene>(other), SolveFrom::sources);
+        while (solution.step(test::never)) {
+        }
+        ASSERT_TRUE(solution.status().settled) << solution.status().message;
+        EXPECT_TRUE(solution.state().probes.complete());
+        Solution fresh(std::make_shared<const Scene>(other));
+        while (fresh.step(test::never)) {
+        }
+        EXPECT_NEAR(solution.status().estimated_error / fresh.status().estimated_error, 1, 0.1) << to_string(kind);
+    }
 }

@@ -14,12 +14,6 @@ void prepare(Solution& solution) {
     }
 }
 
-void edit(Solution& solution, const Scene& scene, SolveFrom from) {
-    solution.update(std::make_shared<const Scene>(scene), from);
-    test::settle(solution);
-    ASSERT_TRUE(solution.status().settled) << solution.status().message;
-}
-
 } // namespace
 
 TEST(LightBases, DimmersAndSpectraNeedNoSweep) {
@@ -30,28 +24,29 @@ TEST(LightBases, DimmersAndSpectraNeedNoSweep) {
     EXPECT_EQ(solution.state().light_bases.count(), 2u);
     const std::uint64_t rays = solution.status().rays;
     const auto expect_as_fresh = [&](const char* what, bool without_sweep) {
+        EXPECT_TRUE(solution.status().settled) << what;
         EXPECT_EQ(solution.status().sweeps == 0, without_sweep) << what;
         EXPECT_EQ(solution.status().rays, rays) << what;
         EXPECT_LT(test::field_difference(*solution.field(), *test::solved(scene).field()), 1e-3) << what;
     };
     scene.luminaires[0].dimmer = 0.2;
     scene.luminaires[1].spectrum = Blackbody{4000};
-    edit(solution, scene, SolveFrom::sources);
+    test::edit(solution, scene, SolveFrom::sources);
     expect_as_fresh("one dimmed, one recoloured", true);
     scene.luminaires[0].dimmer = 0, scene.luminaires[1].dimmer = 1e-4;
-    edit(solution, scene, SolveFrom::sources);
+    test::edit(solution, scene, SolveFrom::sources);
     expect_as_fresh("next to nothing is left", true);
     scene.luminaires[0].dimmer = 1;
-    edit(solution, scene, SolveFrom::sources);
+    test::edit(solution, scene, SolveFrom::sources);
     expect_as_fresh("on again", true);
     // Paints make them anew.
     scene.materials[0].reflectance = 0.5;
-    edit(solution, scene, SolveFrom::reflectance);
+    test::edit(solution, scene, SolveFrom::reflectance);
     EXPECT_EQ(solution.state().light_bases.count(), 0u);
     expect_as_fresh("painted", false);
     prepare(solution);
     scene.luminaires[1].dimmer = 2;
-    edit(solution, scene, SolveFrom::sources);
+    test::edit(solution, scene, SolveFrom::sources);
     expect_as_fresh("dimmed after painting", true);
 }
 
@@ -61,14 +56,14 @@ TEST(LightBases, OneOfManyIsEnoughForItsOwnEdits) {
     scene.solve.wavelengths = {WavelengthRule::uniform, 31}; // channels that both light
     Solution solution = test::solved(scene);
     scene.luminaires[1].dimmer = 0.9;
-    edit(solution, scene, SolveFrom::sources); // from now on it comes first
+    test::edit(solution, scene, SolveFrom::sources); // from now on it comes first
     while (solution.state().light_bases.count() == 0) ASSERT_TRUE(solution.prepare_edits(test::never));
     scene.luminaires[1].dimmer = 0.3;
-    edit(solution, scene, SolveFrom::sources);
+    test::edit(solution, scene, SolveFrom::sources);
     EXPECT_EQ(solution.status().sweeps, 0u);
     EXPECT_LT(test::field_difference(*solution.field(), *test::solved(scene).field()), 1e-3);
     scene.luminaires[0].dimmer = 0.4;
-    edit(solution, scene, SolveFrom::sources);
+    test::edit(solution, scene, SolveFrom::sources);
     EXPECT_GT(solution.status().sweeps, 0u);
     EXPECT_LT(test::field_difference(*solution.field(), *test::solved(scene).field()), 1e-3);
 }

@@ -79,7 +79,7 @@ TEST(MatrixSolution, ShowsTheLightThatGatheringShows) {
     Scene scene = test::small_room();
     scene.solve.solver = SolverKind::gauss_seidel;
     scene.solve.form_factors = FormFactorMethod::hemisphere;
-    scene.solve.element_size = 0.5;
+    scene.solve.element_size = 0.7;
     const Solution matrix = test::solved(scene);
     ASSERT_TRUE(matrix.status().settled) << matrix.status().message;
     scene.solve.solver = SolverKind::gathering;
@@ -108,7 +108,7 @@ TEST(MatrixSolution, RandomEditsSettleWhereAFreshSolveDoesAndTraceNoRay) {
         Scene scene = coarse_room(solver);
         scene.solve.target_error = 0.001;
         Solution edited(std::make_shared<const Scene>(scene));
-        for (int edit = 0; edit < 30; ++edit) {
+        for (int edit = 0; edit < 15; ++edit) {
             SolveFrom from = SolveFrom::reflectance;
             switch (pick(3)) {
             case 0:

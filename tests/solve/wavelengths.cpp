@@ -38,11 +38,6 @@ std::vector<double> colour_differences(const Field& a, const Field& b, const Xyz
     return differences;
 }
 
-void edit(Solution& solution, const Scene& scene, SolveFrom from) {
-    solution.update(std::make_shared<const Scene>(scene), from);
-    test::settle(solution);
-}
-
 } // namespace
 
 // The same rays, so that only the wavelengths differ. What is predicted of products of up to three paints holds for the
@@ -59,7 +54,7 @@ TEST(SolutionWavelengths, AutoAgreesWith81WithinItsPrediction) {
     const auto in_auto = solution.field();
     const std::uint64_t rays = solution.status().rays;
     scene.solve.wavelengths = eighty_one;
-    edit(solution, scene, SolveFrom::reflectance);
+    test::edit(solution, scene, SolveFrom::reflectance);
     EXPECT_EQ(solution.status().rays, rays);
     EXPECT_EQ(solution.state().wavelengths->size(), 81);
     const auto lamp = xyz_from_spectrum(spectrum_of(scene.luminaires[0]));
@@ -85,7 +80,7 @@ TEST(SolutionWavelengths, AnotherLampSpectrumTracesNoRayAndNeedsNoSweep) {
     for (const EmissionSpectrum& spectrum :
          {EmissionSpectrum(Blackbody{2700}), EmissionSpectrum(Flat{}), EmissionSpectrum(Blackbody{6500})}) {
         scene.luminaires[0].spectrum = spectrum;
-        edit(solution, scene, SolveFrom::sources);
+        test::edit(solution, scene, SolveFrom::sources);
         ASSERT_TRUE(solution.status().settled);
         EXPECT_EQ(solution.status().rays, rays);
         EXPECT_EQ(solution.state().wavelengths->nm, nm) << solution.status().wavelengths;
@@ -103,16 +98,16 @@ TEST(SolutionWavelengths, PaintsAndDimmersKeepTheWavelengths) {
     const std::uint64_t rays = solution.status().rays;
     const auto wavelengths = solution.state().wavelengths;
     scene.luminaires[0].dimmer = 0.3;
-    edit(solution, scene, SolveFrom::sources);
+    test::edit(solution, scene, SolveFrom::sources);
     EXPECT_EQ(solution.state().wavelengths, wavelengths) << "the very same: nothing is planned";
     scene.materials[0].reflectance = 0.6; // grey says nothing about wavelengths
-    edit(solution, scene, SolveFrom::reflectance);
+    test::edit(solution, scene, SolveFrom::reflectance);
     EXPECT_EQ(solution.state().wavelengths->nm, wavelengths->nm);
     EXPECT_EQ(solution.status().rays, rays);
     // A filter that is nothing like the paints there were breaks the target: planned anew, and still without a ray.
     scene.materials[1].reflectance =
         SpectrumFile{"filter.csv", "", {{380, 569, 571, 579, 581, 780}, {0, 0, 0.9, 0.9, 0, 0}}};
-    edit(solution, scene, SolveFrom::reflectance);
+    test::edit(solution, scene, SolveFrom::reflectance);
     EXPECT_NE(solution.state().wavelengths->nm, wavelengths->nm);
     EXPECT_LE(solution.status().predicted_colour_error, 0.5);
     EXPECT_EQ(solution.status().rays, rays);
@@ -129,7 +124,7 @@ TEST(SolutionWavelengths, TwoDifferentLampsEachHaveChannels) {
     const std::uint64_t rays = solution.status().rays;
     scene.solve.wavelengths = eighty_one;
     const auto in_auto = solution.field();
-    edit(solution, scene, SolveFrom::reflectance);
+    test::edit(solution, scene, SolveFrom::reflectance);
     EXPECT_EQ(solution.status().rays, rays);
     EXPECT_LT(test::field_difference(*in_auto, *solution.field()), 5e-3);
 }
@@ -143,7 +138,7 @@ TEST(SolutionWavelengths, ALineThatIsNotSeenIsSaid) {
     EXPECT_THAT(solution.status().message, testing::HasSubstr("nothing at the wavelengths of meyer:4"));
     EXPECT_EQ(solution.status().emitted_lumens, 0);
     scene.solve.wavelengths = automatic;
-    edit(solution, scene, SolveFrom::reflectance);
+    test::edit(solution, scene, SolveFrom::reflectance);
     EXPECT_THAT(solution.status().message, testing::Not(testing::HasSubstr("nothing at the wavelengths")));
     EXPECT_NEAR(solution.status().emitted_lumens, 300, 1e-3);
 }

@@ -158,6 +158,10 @@ inline void settle(Solution& solution) {
     }
 }
 
+inline void edit(Solution& solution, const Scene& scene, SolveFrom from) { // and waits for what comes of it
+    solution.update(std::make_shared<const Scene>(scene), from);
+    settle(solution);
+}
 inline Solution solved(Scene scene) {
     Solution solution(std::make_shared<const Scene>(std::move(scene)));
     settle(solution);

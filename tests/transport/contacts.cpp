@@ -38,7 +38,7 @@ Refined refine(const Scene& scene, std::uint32_t more, double element_size = 0.3
     Surroundings around;
     around.distance.assign(r.coarse_vertices, 0);
     around.lit = around.back = around.near = r.buried;
-    find_buried(world, r.mesh, ray_origins(r.mesh, world.epsilon()), 0, r.coarse_vertices, r.buried, &around);
+    find_buried(world, r.mesh, ray_origins(r.mesh, world.epsilon()), 0, 0, r.coarse_vertices, r.buried, &around);
     DirectTransport direct(world, r.mesh, make_emitters(scene), {0.05f, 0.03f, 0.3f, 100000});
     while (!direct.light_vertices(test::never)) {
     }

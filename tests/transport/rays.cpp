@@ -67,7 +67,7 @@ TEST(GatherRows, SumToOneInAClosedScene) {
     const World world(mesh);
     const auto origins = ray_origins(mesh, world.epsilon());
     std::vector<std::uint8_t> buried(mesh.coarse_vertex_count, 0);
-    find_buried(world, mesh, origins, 0, mesh.coarse_vertex_count, buried);
+    find_buried(world, mesh, origins, 0, 0, mesh.coarse_vertex_count, buried);
     const Receivers receivers = every_vertex(mesh, buried);
     GatherPass pass = make_gather_pass(mesh, receivers);
     trace_gather_rays(world, mesh, origins, receivers, buried, 1, 0, 0, mesh.coarse_vertex_count, pass);
@@ -137,7 +137,7 @@ TEST(GatherRows, VerticesInsideASolidAreBuried) {
     const World world(mesh);
     const auto origins = ray_origins(mesh, world.epsilon());
     std::vector<std::uint8_t> buried(mesh.coarse_vertex_count, 0);
-    find_buried(world, mesh, origins, 0, mesh.coarse_vertex_count, buried);
+    find_buried(world, mesh, origins, 0, 0, mesh.coarse_vertex_count, buried);
     int inside = 0;
     for (std::uint32_t v = 0; v < mesh.coarse_vertex_count; ++v) {
         const glm::vec3 p = mesh.vertices[v].position;
@@ -169,6 +169,28 @@ TEST(GatherRows, KeptHitsEndWhereTracedOnesDo) {
     EXPECT_EQ(trace_gather_rays(world, mesh, origins, receivers, none, 3, 1, 0, all, kept),
               (all - half) * rays_per_pass);
     EXPECT_EQ(trace_gather_rays(world, mesh, origins, receivers, none, 3, 1, 0, all, fresh), all * rays_per_pass);
+    EXPECT_EQ(kept.ends, fresh.ends);
+    EXPECT_EQ(kept.fine_ends, fresh.fine_ends);
+}
+
+// The rays that tell who is buried are rays of the first pass.
+TEST(GatherRows, BurialRaysAreTheFirstOnes) {
+    const Scene scene = test::furnace(0.5);
+    const Mesh mesh = make_mesh(scene, {0.3});
+    const World world(mesh);
+    const std::vector<glm::vec3> origins = ray_origins(mesh, world.epsilon());
+    const std::uint32_t count = mesh.coarse_vertex_count;
+    std::vector<std::uint8_t> buried(count, 0);
+    Surroundings around{
+        buried, buried, buried, std::vector<float>(count), 0, std::vector<RayHit>(std::size_t(count) * burial_rays)};
+    find_buried(world, mesh, origins, 3, 0, count, buried, &around);
+    const Receivers receivers = make_receivers(scene, mesh, buried, 1e-4f);
+    GatherPass kept = make_gather_pass(mesh, receivers, hits_of_burial(receivers, around.hits)),
+               fresh = make_gather_pass(mesh, receivers);
+    EXPECT_EQ(trace_gather_rays(world, mesh, origins, receivers, buried, 3, 0, 0, receivers.count(), kept),
+              receivers.count() * (rays_per_pass - burial_rays));
+    EXPECT_EQ(trace_gather_rays(world, mesh, origins, receivers, buried, 3, 0, 0, receivers.count(), fresh),
+              receivers.count() * rays_per_pass);
     EXPECT_EQ(kept.ends, fresh.ends);
     EXPECT_EQ(kept.fine_ends, fresh.fine_ends);
 }
