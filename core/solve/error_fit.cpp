@@ -56,6 +56,8 @@ Residual residual_at(const State& s, const ErrorLight& light, const ErrorModel& 
     r.model_rays = read(model.rays, p);
     r.model_bent = read(model.bent, p);
     r.model_between = p.between ? read(model.between, p) : 0;
+    r.model_read_direct = read(model.read_direct, p);
+    r.model_read_indirect = read(model.read_indirect, p);
     const double gathered = direct.mean() + indirect.mean();
     r.bright = std::max(shown, gathered);
     r.unsent = shown > 0 ? r.direct * read(light.reflected, p) / shown * (1 - double(p.near)) : 0;
@@ -148,24 +150,36 @@ ErrorFactors fit_model(const State& s, const ErrorModel& model, const std::vecto
                        const std::vector<float>& missing_at, double rho) {
     // What shadow rays and gather rays err by is known well, the rest is a guess.
     ErrorFactors factors;
-    Scale direct, hidden, rays, bent, between;
+    Scale direct, hidden, rays, bent, between, readings;
     const auto indirect_found = [&](const Residual& r) {
         const double of_missing = (1 - rho) * read(missing_at, *r.point);
         return r.indirect * r.indirect - r.indirect_noise - of_missing * of_missing;
     };
+    // Samples that differ do so mostly as the plane through them does: a quarter of it is believed to be error.
+    for (const Residual& r : probes)
+        if (!r.point->between && r.model_read_direct + r.model_read_indirect > 0) {
+            readings.add(r.direct * r.direct - r.direct_noise - r.model_direct, r.model_read_direct,
+                         r.model_direct + r.direct_noise, r.weight);
+            readings.add(indirect_found(r) - r.model_rays, r.model_read_indirect, r.model_rays + r.indirect_noise,
+                         r.weight);
+        }
+    factors.read = readings.factor(0.25, 1);
+    const auto read_direct = [&](const Residual& r) { return factors.read * r.model_read_direct; };
+    const auto read_indirect = [&](const Residual& r) { return factors.read * r.model_read_indirect; };
     // Each probe in its own terms, the wildest cut: what a few slats before a window lack must not be believed of all.
     constexpr double wildest = 25;
     for (const Residual& r : probes)
-        if (const double other = r.model_direct + r.direct_noise; !r.point->between && r.model_hidden > 0)
+        if (const double other = r.model_direct + read_direct(r) + r.direct_noise;
+            !r.point->between && r.model_hidden > 0)
             hidden.add(std::min(r.direct * r.direct - other, wildest * (r.model_hidden + other)), r.model_hidden, other,
                        r.area / (r.model_hidden + other));
     factors.hidden = hidden.factor(0.01, 1);
     for (const Residual& r : probes)
         if (!r.point->between) {
-            const double of_hidden = factors.hidden * r.model_hidden;
+            const double of_hidden = factors.hidden * r.model_hidden + read_direct(r);
             direct.add(r.direct * r.direct - r.direct_noise - of_hidden, r.model_direct, of_hidden + r.direct_noise,
                        r.weight);
-            rays.add(indirect_found(r), r.model_rays, r.indirect_noise, r.weight);
+            rays.add(indirect_found(r) - read_indirect(r), r.model_rays, r.indirect_noise + read_indirect(r), r.weight);
         }
     factors.direct = direct.factor(1, 1), factors.rays = rays.factor(1, 0.25);
     // What is wrong here is as wrong close by, in a corner or at the foot of a block: the probe reads that, and finds
@@ -175,8 +189,9 @@ ErrorFactors fit_model(const State& s, const ErrorModel& model, const std::vecto
         if (!r.point->between) {
             const double alike = model.known ? r.point->near : 0.5 + 0.5 * r.point->near;
             const double unseen = 1 / std::pow(1 - std::min(0.7, reflectance * alike), 2);
-            bent.add(unseen * (indirect_found(r) - factors.rays * r.model_rays), r.model_bent,
-                     unseen * (factors.rays * r.model_rays + r.indirect_noise), r.weight);
+            const double others = factors.rays * r.model_rays + read_indirect(r);
+            bent.add(unseen * (indirect_found(r) - others), r.model_bent, unseen * (others + r.indirect_noise),
+                     r.weight);
         }
     factors.bent = model.known ? bent.factor(0.03, 0.15) : bent.factor(1, 1);
     for (const Residual& r : probes)

@@ -9,7 +9,7 @@ namespace lueur {
 struct Residual {
     const ErrorProbes::Point* point;
     double direct, indirect, direct_noise, indirect_noise; // lx, lx^2
-    double model_direct, model_hidden, model_rays, model_bent, model_between;
+    double model_direct, model_hidden, model_rays, model_bent, model_between, model_read_direct, model_read_indirect;
     double unsent; // lm m^-2: what of `direct` would be reflected to where it is not as wrong
     double bright; // lx, what an error here is relative to: the larger of what is shown and what was gathered
     double area;   // m^2 that counts: none where it is dark
@@ -29,13 +29,14 @@ double missing_light(const Solution::State& state, const ErrorMesh& mesh, const 
 
 // What variances of the model are to be multiplied with.
 struct ErrorFactors {
-    double direct = 1, hidden = 0, rays = 1, bent = 1, between = 1;
+    double direct = 1, hidden = 0, rays = 1, bent = 1, between = 1, read = 0;
     double at(const ErrorModel& model, std::size_t vertex) const {
         return direct * model.direct[vertex] + hidden * model.hidden[vertex] + rays * model.rays[vertex] +
-               bent * model.bent[vertex];
+               bent * model.bent[vertex] + read * (model.read_direct[vertex] + model.read_indirect[vertex]);
     }
     double at(const Residual& r) const {
-        return direct * r.model_direct + hidden * r.model_hidden + rays * r.model_rays + bent * r.model_bent;
+        return direct * r.model_direct + hidden * r.model_hidden + rays * r.model_rays + bent * r.model_bent +
+               read * (r.model_read_direct + r.model_read_indirect);
     }
 };
 ErrorFactors fit_model(const Solution::State& state, const ErrorModel& model, const std::vector<Residual>& probes,

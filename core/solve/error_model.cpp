@@ -53,7 +53,7 @@ void model_indirect(const State& s, const ErrorMesh& mesh, const ErrorLight& lig
         for (std::uint32_t v = 0; v < coarse; ++v) model.rays[v] = s.indirect_deviation[v] * s.indirect_deviation[v];
         pool(mesh.coarse_elements, s.buried, value, least, std::span(model.rays.data(), coarse));
     }
-    const bool shared = s.solver() == SolverKind::gathering;
+    const bool shared = s.solver() == SolverKind::gathering && s.direct->samples().count() == 0; // else see below
     for (std::uint32_t v = 0; v < coarse; ++v) {
         model.bent[v] = 0.25f * near[v];
         // Read from a receiver that lies elsewhere.
@@ -69,6 +69,38 @@ void model_indirect(const State& s, const ErrorMesh& mesh, const ErrorLight& lig
     }
     std::vector<float>& missing = model.known ? model.rays : model.bent;
     for (std::uint32_t v = coarse; v < count; ++v) missing[v] += 0.0625f * missed[v];
+}
+
+// Variance of what a vertex reads: as if it had any one of the samples, as likely as it counts; and what a sample does
+// not know of places so far away, compared with what is around it (Ward, Rubinstein & Clear 1988, eq. 5).
+float spread_of_readings(const State& s, std::uint32_t v, std::span<const float> light) {
+    const LightSamples& samples = s.direct->samples();
+    double mean = 0, square = 0, away = 0;
+    for (const LightSamples::Reading& r : samples.readings_of(v)) {
+        const std::uint32_t at = samples.vertex[r.sample];
+        mean += r.weight * light[at], square += r.weight * light[at] * light[at];
+        away += r.weight * glm::distance(s.mesh.vertices[v].position, s.mesh.vertices[at].position) /
+                std::max(1e-20f, s.around.distance[at]);
+    }
+    const double unknown = std::min(1.0, away) * mean;
+    return static_cast<float>(std::max(0.0, square - mean * mean) + unknown * unknown);
+}
+
+void model_readings(const State& s, const ErrorLight& light, ErrorModel& model) {
+    const LightSamples& samples = s.direct->samples();
+    const auto count = static_cast<std::uint32_t>(light.total.size());
+    model.read_direct.assign(count, 0);
+    model.read_indirect.assign(count, 0);
+    if (samples.count() == 0) return;
+    for (std::uint32_t v = 0; v < s.mesh.coarse_vertex_count; ++v) {
+        if (samples.is_sample(v)) continue;
+        model.read_direct[v] = spread_of_readings(s, v, light.direct);
+        model.read_indirect[v] = spread_of_readings(s, v, light.indirect);
+    }
+    for (std::uint32_t v = s.mesh.coarse_vertex_count; v < count; ++v) { // direct light there is its own
+        const auto& p = s.mesh.vertices[v].parents;
+        model.read_indirect[v] = 0.5f * (model.read_indirect[p[0]] + model.read_indirect[p[1]]);
+    }
 }
 
 } // namespace
@@ -92,6 +124,8 @@ ErrorModel error_model(const State& s, const ErrorMesh& mesh, const ErrorLight& 
                      {},
                      {},
                      mesh.fine.at_vertices(light.total),
+                     {},
+                     {},
                      false};
     if (shows_direct_apart(s)) // where it is dark there may be as much as elsewhere
         for (std::size_t v = 0; v < model.hidden.size(); ++v) {
@@ -101,6 +135,7 @@ ErrorModel error_model(const State& s, const ErrorMesh& mesh, const ErrorLight& 
     else
         std::ranges::fill(model.direct, 0.0f);
     model_indirect(s, mesh, light, model);
+    model_readings(s, light, model);
     for (float& b : model.between) b = 0.0625f * b * b; // a quarter of the bend
     return model;
 }

@@ -14,7 +14,9 @@ struct ErrorModel {
     std::vector<float> rays;    // of what a solver knows of its own indirect light
     std::vector<float> bent;    // of indirect light, as far as it differs from vertex to vertex
     std::vector<float> between; // added between the vertices
-    bool known = false;         // the solver says something of its own error
+    // Of light that is read at samples (light_samples.h): by how much these differ.
+    std::vector<float> read_direct, read_indirect;
+    bool known = false; // the solver says something of its own error
 };
 
 // At how many vertices, the first ones, indirect light is solved; the others interpolate it.
