@@ -60,8 +60,10 @@ MemoryPlan plan_memory(const Scene& scene, int channels) {
     const double gathering =
         sampled ? std::min<double>(cut_groups * groups + apart, most_samples) : std::min(groups + apart, vertices);
     const double lit = sampled ? gathering : vertices;
-    const double fine = std::min<double>(fine_vertices(static_cast<std::uint64_t>(vertices)), 4 * lit) +
-                        contact_vertices + gathering / contact_share;
+    const double contacts =
+        contact_vertices(static_cast<std::uint64_t>(vertices), static_cast<std::uint32_t>(gathering));
+    const double fine =
+        std::max(contacts, std::min<double>(fine_vertices(static_cast<std::uint64_t>(vertices)), 4 * lit));
     plan.program = bytes_of_program;
     plan.samples = static_cast<std::uint64_t>(lit);
     plan.vertices = static_cast<std::uint64_t>(vertices + fine);
@@ -81,7 +83,7 @@ MemoryPlan plan_memory(const Scene& scene, int channels) {
     const double shares = double(scene.luminaires.size()) * share_of_luminaires + 1;
     plan.direct = bytes((lit + fine) * (24 + 12 * shares));
     const int most_rays = std::max(scene.solve.max_rays, independent_sets * rays_per_pass);
-    const double receivers = gathering + contact_vertices + gathering / contact_share;
+    const double receivers = gathering + contacts;
     plan.rows = bytes(8.0 * receivers * most_rays + 12.0 * receivers * independent_sets * rays_per_pass);
     // Of the system some fifteen vectors (gather_system.h); at all vertices indirect light, the whole of it, and what
     // is read of direct light.

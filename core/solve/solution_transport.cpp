@@ -23,10 +23,10 @@ bool refine_indirect(State& s, const std::atomic<bool>& cancel) {
     if (!s.indirect_refinement)
         s.indirect_refinement = std::make_unique<IndirectRefinement>(
             *s.world, s.mesh, *s.direct, s.buried, s.around.distance,
-            IndirectParams{.smallest_element = std::max(cell_of(s), s.direct->samples().cell),
+            IndirectParams{.smallest_element = cell_of(s),
                            .smallest_edge = static_cast<float>(s.element_size / 8),
-                           .most_vertices =
-                               s.mesh.coarse_vertex_count + contact_vertices + s.receivers.count() / contact_share});
+                           .most_vertices = s.mesh.coarse_vertex_count +
+                                            contact_vertices(s.mesh.coarse_vertex_count, s.receivers.count())});
     const std::uint64_t rays = s.indirect_refinement->rays();
     const bool done = s.indirect_refinement->step(cancel);
     s.status.rays += s.indirect_refinement->rays() - rays;

@@ -6,18 +6,21 @@
 
 namespace lueur {
 
-// That direct light may add: the window has to draw them. A quarter of the coarse ones, between these.
-inline constexpr std::uint32_t fewest_fine_vertices = 20000, most_fine_vertices = 60000;
-constexpr std::uint32_t fine_vertices(std::uint64_t coarse) {
-    return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(coarse / 4, fewest_fine_vertices, most_fine_vertices));
-}
 inline constexpr double receiver_cell = 0.3; // of the coarse element size: what lies closer shares what is gathered
 // Coarse vertices that light is computed at; of meshes of more, it is computed at so many samples (light_samples.h).
 inline constexpr std::uint32_t most_samples = 80000;
 constexpr bool is_sampled(std::uint64_t coarse) {
     return coarse > most_samples;
 }
-// That indirect light may add: so many, and a share of the samples.
-inline constexpr std::uint32_t contact_vertices = 1000, contact_share = 8;
+// That direct light may add, with those of indirect light: the window has to draw them. More where all else is drawn
+// too.
+inline constexpr std::uint32_t most_fine_vertices = 20000, most_fine_vertices_of_sampled = 40000;
+constexpr std::uint32_t fine_vertices(std::uint64_t coarse) {
+    return is_sampled(coarse) ? most_fine_vertices_of_sampled : most_fine_vertices;
+}
+// That indirect light may add: so many, and a share of the receivers.
+constexpr std::uint32_t contact_vertices(std::uint64_t coarse, std::uint32_t receivers) {
+    return 1000 + receivers / (is_sampled(coarse) ? 3 : 8);
+}
 
 } // namespace lueur

@@ -1,11 +1,38 @@
 #include "core/transport/edge_refinement.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace lueur {
 
-EdgeRefinement::EdgeRefinement(Mesh& mesh)
-    : mesh_(mesh) {}
+namespace {
+
+using Worth = std::pair<float, std::uint32_t>; // misfit by squared length, leaf
+
+// Where all that is bent would take more than there is room for, level after level: leaves that are worth less than
+// this are left whole, so that the others can be cut as finely as they are worth. A shadow's edge halves the worth of
+// what it crosses with each cut, and crosses twice as many leaves after two: of one worth w there are
+// sum 2^(k/2) = 3.4 sqrt(w / least) - 2.4 cuts, each of two leaves at once. `wanted`: the largest first.
+float least_worth(const std::vector<Worth>& wanted, double room) {
+    constexpr double level_share = 0.5, leaves_of_a_cut = 1.5; // some are cut for conformity
+    if (double(wanted.size()) < level_share * room) return 0;
+    double roots = 0, leaves = 0;
+    for (const Worth& w : wanted) {
+        const double root = std::sqrt(double(w.first));
+        if (3.4 * roots - 2.4 * leaves * root > leaves_of_a_cut * room * root) {
+            const double least = 3.4 * roots / (leaves_of_a_cut * room + 2.4 * leaves);
+            return static_cast<float>(least * least);
+        }
+        roots += root, leaves += 1;
+    }
+    return 0;
+}
+
+} // namespace
+
+EdgeRefinement::EdgeRefinement(Mesh& mesh, Room room)
+    : mesh_(mesh)
+    , room_(room) {}
 
 void EdgeRefinement::follow_mesh() {
     bisection_.reset();
@@ -46,7 +73,7 @@ EdgeRefinement::Place EdgeRefinement::middle(const Edge& edge, float epsilon) co
 void EdgeRefinement::split(std::span<const float> bent, std::uint32_t most_vertices) {
     for (std::size_t e = 0; e < edges_.size(); ++e)
         if (bent[e] == 0) straight_.emplace(Bisection::edge_key(edges_[e].a, edges_[e].b), 1);
-    std::vector<std::pair<float, std::uint32_t>> wanted;
+    std::vector<Worth> wanted;
     for (const std::uint32_t n : open_) {
         const glm::uvec3 v = mesh_.nodes[n].vertices;
         float worst = 0;
@@ -60,8 +87,11 @@ void EdgeRefinement::split(std::span<const float> bent, std::uint32_t most_verti
     std::sort(wanted.begin(), wanted.end(), [](const auto& a, const auto& b) {
         return a.first != b.first ? a.first > b.first : a.second < b.second;
     });
-    for (const auto& [misfit, n] : wanted) {
-        if (mesh_.vertices.size() >= most_vertices) break;
+    const float least = room_ == Room::for_finer_levels
+                            ? least_worth(wanted, double(most_vertices) - double(mesh_.vertices.size()))
+                            : 0;
+    for (const auto& [worth, n] : wanted) {
+        if (mesh_.vertices.size() >= most_vertices || worth < least) break;
         if (mesh_.nodes[n].children == no_index) bisection_->split(n);
     }
     list_leaves(mesh_);

@@ -14,9 +14,13 @@
 
 namespace lueur {
 
+// What becomes of the room there is where it is too small for all that is bent: as far as it goes, or kept for finer
+// levels of what is worth most.
+enum class Room { as_far_as_it_goes, for_finer_levels };
+
 class EdgeRefinement {
 public:
-    explicit EdgeRefinement(Mesh& mesh); // must outlive it
+    explicit EdgeRefinement(Mesh& mesh, Room room = Room::as_far_as_it_goes); // `mesh` must outlive it
 
     struct Edge {
         std::uint32_t a, b;
@@ -45,6 +49,7 @@ public:
 
 private:
     Mesh& mesh_;
+    Room room_;
     std::optional<Bisection> bisection_; // made when edges are first asked for
     std::vector<Edge> edges_;
     std::unordered_map<std::uint64_t, std::uint32_t> edge_slot_;

@@ -27,7 +27,8 @@ IndirectRefinement::IndirectRefinement(const World& world, Mesh& mesh, const Dir
     : world_(world)
     , mesh_(mesh)
     , params_(params)
-    , edges_(mesh)
+    , samples_(direct.samples())
+    , edges_(mesh, samples_.count() > 0 ? Room::for_finer_levels : Room::as_far_as_it_goes)
     , buried_(std::move(buried))
     , distance_(std::move(distance))
     , origins_(ray_origins(mesh, world.epsilon())) {
@@ -73,10 +74,12 @@ IndirectRefinement::Seen IndirectRefinement::gather(glm::vec3 origin, glm::vec3 
 }
 
 bool IndirectRefinement::is_close(std::uint32_t a, std::uint32_t b) const {
+    const float length = glm::distance(mesh_.vertices[a].position, mesh_.vertices[b].position);
+    // Between vertices that read samples there is nothing finer to be had.
+    if (!samples_.stands_alone(a) && !samples_.stands_alone(b) && length <= samples_.cell) return false;
     // A bar of a picture frame has its ends in its neighbours and its back in the wall: only what lies between is seen.
     if (buried_[a] || buried_[b]) return true;
-    return glm::distance(mesh_.vertices[a].position, mesh_.vertices[b].position) >
-           close_edge * std::min(distance_[a], distance_[b]);
+    return length > close_edge * std::min(distance_[a], distance_[b]);
 }
 
 // The edges that may be bent, and the vertices whose light has to be known for them.

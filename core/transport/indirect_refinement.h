@@ -54,6 +54,7 @@ private:
     const World& world_;
     Mesh& mesh_;
     const IndirectParams params_;
+    const LightSamples& samples_;
     EdgeRefinement edges_;
     std::vector<float> radiosity_; // grey, at coarse vertices
     std::vector<float> direct_;    // guessed, at all vertices
