@@ -131,8 +131,10 @@ ErrorModel error_model(const State& s, const ErrorMesh& mesh, const ErrorLight& 
     const double usual = usual_light(light, mesh, static_cast<std::uint32_t>(light.total.size()));
     if (shows_direct_apart(s)) // where it is dark there may be as much as elsewhere, but for what luminaires fill
         for (std::size_t v = 0; v < model.hidden.size(); ++v) {
-            const float* seen = s.direct->at_vertex(static_cast<std::uint32_t>(v)); // form factors
-            const double unfilled = std::max(0.0, 1 - std::accumulate(seen, seen + s.direct->emitter_count(), 0.0));
+            double filled = 0; // form factors
+            s.direct->each_share(static_cast<std::uint32_t>(v),
+                                 [&](const DirectShare& share, float part) { filled += double(part) * share.factor; });
+            const double unfilled = std::max(0.0, 1 - filled);
             const double bright = unfilled * hidden_share * 0.5 * (double(light.total[v]) + usual);
             model.hidden[v] = static_cast<float>(bright * bright);
         }

@@ -21,7 +21,10 @@ float finest_edge_at_the_step(Room room) {
     float finest = 1e30f;
     for (std::size_t before = 0; before != mesh.vertices.size();) {
         before = mesh.vertices.size();
-        edges.collect(0.01f, [](std::uint32_t, std::uint32_t) { return true; });
+        while (!edges.prepare(test::never)) {
+        }
+        while (!edges.collect(0.01f, [](std::uint32_t, std::uint32_t) { return true; }, test::never)) {
+        }
         std::vector<float> bent;
         for (const EdgeRefinement::Edge& edge : edges.edges()) {
             bent.push_back(crosses(edge) ? 0.5f : 0.01f);
@@ -29,7 +32,10 @@ float finest_edge_at_the_step(Room room) {
                 finest =
                     std::min(finest, glm::distance(mesh.vertices[edge.a].position, mesh.vertices[edge.b].position));
         }
-        edges.split(bent, most);
+        edges.judge(std::move(bent));
+        while (!edges.plan_split(test::never)) {
+        }
+        edges.split(most);
     }
     EXPECT_GE(mesh.vertices.size(), most - 100);
     EXPECT_LE(mesh.vertices.size(), most + 10);
