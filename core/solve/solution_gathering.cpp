@@ -410,6 +410,7 @@ void trace_gathering_rows(State& s, const std::atomic<bool>& cancel) {
         if (s.passes.size() < s.passes_wanted) return;
     }
     s.rows_wait = true;
+    s.status.sweeps = 0; // over these
     take_rows(s, cancel);
 }
 
