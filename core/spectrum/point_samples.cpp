@@ -16,9 +16,6 @@ using Eigen::VectorXd;
 double scaled(double nm) {
     return (nm - 0.5 * (observer_first_nm + observer_last_nm)) / (0.5 * (observer_last_nm - observer_first_nm));
 }
-double nm_from_scaled(double x) {
-    return 0.5 * (observer_first_nm + observer_last_nm) + x * 0.5 * (observer_last_nm - observer_first_nm);
-}
 
 // A weight function summed at whole nanometres, 380..780 nm: the range that gives Meyer's four wavelengths.
 template <typename Function>

@@ -64,7 +64,7 @@ TEST(FirstPictures, AreTrueAfterAnEditAtAnyMoment) {
     const auto is_between_passes = [](const Solution::State& s) {
         return s.phase == SolvePhase::transport && !s.passes.empty() && !s.pass_open;
     };
-    for (int moment = -3; moment < 400; moment += 3) { // steps; first the moment between two passes, whenever that is
+    for (int moment = -3; moment < 400; moment += 5) { // steps; first the moment between two passes, whenever that is
         Solution solution(std::make_shared<const Scene>(scene));
         const Solution::State& s = solution.state();
         bool there = true;
