@@ -23,7 +23,8 @@ float finest_edge_at_the_step(Room room) {
         before = mesh.vertices.size();
         while (!edges.prepare(test::never)) {
         }
-        while (!edges.collect(0.01f, [](std::uint32_t, std::uint32_t) { return true; }, test::never)) {
+        while (!edges.collect(
+            0.01f, [](std::uint32_t, std::uint32_t) { return true; }, test::never)) {
         }
         std::vector<float> bent;
         for (const EdgeRefinement::Edge& edge : edges.edges()) {
