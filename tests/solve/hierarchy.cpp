@@ -178,7 +178,10 @@ TEST(Hierarchical, StepsThatAreCutShortChangeNothing) {
         edited.update(dimmed, SolveFrom::sources);
         test::settle(edited);
         ASSERT_TRUE(edited.status().settled);
-        EXPECT_NEAR(mean_light(*edited.state().hierarchy) / mean_light(*fresh.state().hierarchy), 1, 0.03) << share;
+        // The clock says where steps end, and links that were made for more light stay: both are right to the target.
+        EXPECT_NEAR(mean_light(*edited.state().hierarchy) / mean_light(*fresh.state().hierarchy), 1,
+                    0.25 * scene.solve.target_error)
+            << share;
     }
 }
 
