@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/solve/gathering_sources.h"
 #include "core/solve/least_absorbed.h"
 #include "core/solve/ray_budget.h"
 #include "core/solve/solution_steps.h"
@@ -12,32 +13,12 @@ namespace lueur {
 
 namespace {
 
-constexpr double residual_target = 2e-4;             // |r| / |b|, worst channel
-constexpr double residuals_in_a_sum = 4;             // a sum of bases may have more of it than each
-constexpr double first_residual_target = 5e-3;       // of the first picture, whose rays know no more
-constexpr std::uint32_t most_gathering_sweeps = 400; // a system that needs more does not converge
-constexpr std::uint32_t coarse_passes = 2;           // before the mesh is refined
-constexpr double smoothing_farthest = 3;             // coarse element sizes
-constexpr double ray_share = 0.7; // of the target error that the rays may take; interpolation has the rest
+constexpr double first_residual_target = 5e-3; // of the first picture, whose rays know no more
+constexpr std::uint32_t coarse_passes = 2;     // before the mesh is refined
+constexpr double smoothing_farthest = 3;       // coarse element sizes
+constexpr double ray_share = 0.7;              // of the target error that the rays may take; interpolation has the rest
 
 using State = Solution::State;
-
-ChannelField rho_of_receivers(const State& s) {
-    ChannelField rho(s.receivers.count(), s.channels());
-    for (std::uint32_t i = 0; i < rho.count; ++i) {
-        const auto& values = s.material_rho[s.material_of(s.mesh.vertices[s.receivers.vertex[i]].surface)];
-        std::copy(values.begin(), values.end(), rho[i]);
-    }
-    return rho;
-}
-
-// Area that each receiver stands for, m^2; 0 for buried ones.
-std::vector<float> receiver_areas(const State& s) {
-    std::vector<float> area(s.receivers.count(), 0);
-    for (std::uint32_t v = 0; v < s.receivers.of_vertex.size(); ++v)
-        if (!s.buried[v]) area[s.receivers.of_vertex[v]] += s.indirect_area[v];
-    return area;
-}
 
 // What the status calls unshot: luminous flux still to be sent on its way, of what the luminaires emit.
 double unshot_flux_share(const State& s) {
@@ -48,88 +29,6 @@ double unshot_flux_share(const State& s) {
     }
     return s.status.emitted_lumens > 0 ? flux / s.status.emitted_lumens : 0;
 }
-
-// Fine vertices that rays may end at: those there were when the rays were traced. The mesh may have grown since.
-std::uint32_t fine_vertices_of_rays(const State& s) {
-    return s.passes.empty() ? static_cast<std::uint32_t>(s.mesh.vertices.size()) : s.passes.front().fine_vertices;
-}
-
-// Direct light reflected at the fine vertices: rho D E; the row after those that rays end at is zero. Luminaires
-// without any channels are left out.
-ChannelField reflected_direct(const State& s, const Exitances& exitance) {
-    const std::uint32_t count = fine_vertices_of_rays(s);
-    const int channels = s.channels();
-    ChannelField b(static_cast<std::uint32_t>(s.mesh.vertices.size()) + 1, channels);
-    read_direct(s, exitance, b);
-    std::fill_n(b[count], channels, 0.0f);
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, count, 256),
-                      [&](const tbb::blocked_range<std::uint32_t>& range) {
-                          for (std::uint32_t v = range.begin(); v < range.end(); ++v) {
-                              const auto& rho = s.material_rho[s.material_of(s.mesh.vertices[v].surface)];
-                              for (int c = 0; c < channels; ++c) b[v][c] *= static_cast<float>(rho[c]);
-                          }
-                      });
-    return b;
-}
-
-SmoothedReceivers smoothed_receivers(const State& s) {
-    return {s.receivers.of_vertex, s.receivers.vertex, s.smoothing};
-}
-
-// Of all the light that arrives in the end, the share that is still missing: each unit of the residual is reflected on,
-// 1 / (1 - rho_ave) times if nothing is lost.
-double gathering_missing_share(const State& s, const std::vector<float>& areas, const std::vector<float>& direct) {
-    double arriving = 0;
-    for (std::uint32_t i = 0; i < s.receivers.count(); ++i)
-        arriving += double(areas[i]) *
-                    (double(direct[i]) + luminous(s, s.gathered_direct[i]) + luminous(s, s.system.gathered()[i]));
-    const double absorbed = std::max(least_absorbed, 1 - mean_luminous_reflectance(s) * mean_lit_share(s));
-    const double missing = s.status.unshot_share * s.status.emitted_lumens / absorbed;
-    return missing > 0 ? missing / (missing + arriving) : 0;
-}
-
-} // namespace
-
-void take_stock_of_gathering(State& s) {
-    if (!std::exchange(s.rays_unjudged, false)) return;
-    const std::uint32_t receivers = s.receivers.count();
-    ScalarRadiosity radiosity{std::vector<float>(receivers), std::vector<float>(fine_vertices_of_rays(s))};
-    for (std::uint32_t i = 0; i < receivers; ++i)
-        radiosity.indirect[i] = static_cast<float>(luminous(s, s.system.radiosity()[i]));
-    // Direct irradiance and its reflection, the luminous part of both.
-    std::vector<float> direct(receivers, 0); // that of the rays is added below
-    {
-        ChannelField h(static_cast<std::uint32_t>(s.mesh.vertices.size()), s.channels());
-        read_direct(s, s.luminaire_exitance, h);
-        std::vector<std::vector<float>> reflected; // of each paint: what a channel's irradiance gives
-        for (const std::vector<double>& rho : s.material_rho) {
-            reflected.emplace_back();
-            for (std::size_t c = 0; c < s.wavelengths->xyz_weight.size(); ++c)
-                reflected.back().push_back(static_cast<float>(s.wavelengths->xyz_weight[c].y * rho[c]));
-        }
-        for (std::uint32_t i = 0; i < receivers; ++i)
-            direct[i] = static_cast<float>(luminous(s, h[s.receivers.vertex[i]]));
-        for (std::uint32_t v = 0; v < radiosity.direct.size(); ++v) {
-            const std::vector<float>& on_paint = reflected[s.material_of(s.mesh.vertices[v].surface)];
-            for (std::size_t c = 0; c < on_paint.size(); ++c) radiosity.direct[v] += on_paint[c] * h[v][c];
-        }
-    }
-
-    const SmoothedReceivers smoothed = smoothed_receivers(s);
-    s.indirect_deviation = smoothed.of(half_differences(s.passes, radiosity));
-    for (float& d : s.indirect_deviation) d = std::abs(d);
-    const std::vector<float> areas = receiver_areas(s);
-    const double unsolved = gathering_missing_share(s, areas, direct);
-    for (std::uint32_t i = 0; i < receivers; ++i)
-        direct[i] += static_cast<float>(luminous(s, s.gathered_direct[i]) + luminous(s, s.system.gathered()[i]));
-    const double rays =
-        s.passes.size() % independent_sets == 0 ? relative_ray_error(direct, s.indirect_deviation, areas, smoothed) : 1;
-    const double interpolation = s.direct->misfit();
-    s.status.estimated_error =
-        std::min(1.0, std::sqrt(rays * rays + unsolved * unsolved + interpolation * interpolation));
-}
-
-namespace {
 
 // In a part of the scene that keeps all its light the radiosity grows without end: say so instead of iterating. Light
 // of a receiver can end if it absorbs, if one of its rays leaves the scene, or if one ends where light can.
@@ -216,10 +115,6 @@ void renew_smoothing(State& s) {
     s.smoothing = make_smoothing(s.mesh, s.mesh.indirect_elements, left_out, s.indirect_distance,
                                  smoothing_reach(static_cast<std::uint32_t>(s.passes.size()) * rays_per_pass),
                                  static_cast<float>(smoothing_farthest * s.element_size));
-}
-
-LightBasesRoom room_for_bases(const State& s) {
-    return {s.receivers.count(), s.channels(), s.luminaire_exitance.size()};
 }
 
 // Receivers that have come to those of the system are given what the vertices have between which they lie: a picture
@@ -457,55 +352,6 @@ void step_gathering(State& s, const std::atomic<bool>& cancel) {
     } else {
         s.phase = SolvePhase::refine;
     }
-}
-
-// One sweep, or what comes before the first: of what one luminaire does alone, or of what is shown, from which edits
-// start while not all luminaires have a basis. Both are solved further than what is shown, for sums add residuals up.
-bool prepare_gathering_edits(State& s, const std::atomic<bool>& cancel) {
-    using Making = State::BasisInTheMaking;
-    LightBases& bases = s.light_bases;
-    if (s.passes.empty() || s.status.emitted_lumens <= 0) return false;
-    bases.keep_for(room_for_bases(s), s.material_rho);
-    std::optional<std::size_t> luminaire = bases.next();
-    if (luminaire && !bases.has_reference(s.luminaire_exitance)) luminaire = Making::all_as_they_are;
-    if (!luminaire) {
-        s.basis_in_the_making.reset();
-        return false;
-    }
-    const std::uint32_t n = s.receivers.count();
-    Exitances exitance = s.luminaire_exitance;
-    if (*luminaire != Making::all_as_they_are) {
-        exitance.assign(exitance.size(), {});
-        exitance[*luminaire].assign(static_cast<std::size_t>(s.channels()), 1.0);
-    }
-    if (!s.basis_in_the_making || s.basis_in_the_making->exitance != exitance ||
-        s.basis_in_the_making->rho != s.material_rho) {
-        Making making{exitance, s.material_rho, 0, s.gathered_direct, s.system};
-        if (*luminaire != Making::all_as_they_are) {
-            if (!apply_rows(s.passes, RayEnds::fine, reflected_direct(s, exitance), making.gathered, cancel))
-                return true;
-            making.system = GatherSystem(n, s.channels(), receiver_areas(s));
-            making.system.set_sources(rho_of_receivers(s), making.gathered);
-        }
-        s.basis_in_the_making = std::move(making);
-        return true;
-    }
-    Making& making = *s.basis_in_the_making;
-    if (making.system.relative_residual() > residual_target / residuals_in_a_sum) {
-        if (!making.system.sweep(s.passes, cancel)) return true;
-        if (making.system.diverged() || ++making.sweeps > most_gathering_sweeps) {
-            if (*luminaire == Making::all_as_they_are) return false;
-            bases.give_up(*luminaire);
-        }
-        return true;
-    }
-    LightSolution solution{std::move(making.gathered), making.system.radiosity(), making.system.gathered()};
-    if (*luminaire == Making::all_as_they_are)
-        bases.set_reference(exitance, std::move(solution));
-    else
-        bases.add(*luminaire, std::move(solution));
-    s.basis_in_the_making.reset();
-    return true;
 }
 
 double gathering_progress(const State& s) {

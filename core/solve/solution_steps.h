@@ -63,7 +63,7 @@ void step_burial(Solution::State& s, const std::atomic<bool>& cancel);
 bool ask_probes(Solution::State& s, const std::atomic<bool>& cancel);
 void step_refine(Solution::State& s, const std::atomic<bool>& cancel); // direct light on the fine mesh
 
-// Gathering on kept rows: solution_gathering.cpp.
+// Gathering on kept rows: solution_gathering.cpp, and of its error and of edits to come solution_gathering_*.cpp.
 void start_gathering(Solution::State& s, bool same_sources);
 void trace_gathering_rows(Solution::State& s, const std::atomic<bool>& cancel);
 void step_gathering(Solution::State& s, const std::atomic<bool>& cancel);

@@ -91,10 +91,15 @@ TEST(Worker, SettlesAndSleeps) {
     ASSERT_NE(snapshot->field, nullptr);
     EXPECT_EQ(snapshot->field->irradiance_xyz.size(), snapshot->mesh->vertices.size());
     EXPECT_FALSE(snapshot->history.empty());
-    const double before = cpu_seconds();
-    std::this_thread::sleep_for(std::chrono::milliseconds(500));
-    EXPECT_LT(cpu_seconds() - before, 0.05); // asleep
-    EXPECT_EQ(worker.latest(), snapshot);    // and quiet
+    // First it prepares for edits to come, which takes a while under a sanitizer.
+    double used = 1;
+    for (int tries = 0; tries < 60 && used >= 0.05; ++tries) {
+        const double before = cpu_seconds();
+        std::this_thread::sleep_for(std::chrono::milliseconds(500));
+        used = cpu_seconds() - before;
+    }
+    EXPECT_LT(used, 0.05);                // asleep
+    EXPECT_EQ(worker.latest(), snapshot); // and quiet
 }
 
 TEST(Worker, RandomEditsWhileSolvingSettleWhereAFreshSolveDoes) {
