@@ -139,6 +139,9 @@ void EditorWindow::log_facts() {
         separator = ",";
     }
     log.fact("dimmers", "[" + dimmers + "]");
+    const ImGuiIO& io = ImGui::GetIO(); // what has been seen of the hand
+    const ImVec2 mouse = ImGui::IsMousePosValid() ? io.MousePos : ImVec2(-1, -1);
+    log.fact("mouse", fmt::format("[{:.0f},{:.0f},{}]", mouse.x, mouse.y, io.MouseDown[0] ? 1 : 0));
     log.fact("selected", state_.selected ? fmt::format("{}", at(*state_.selected)) : "null");
     log.fact("pictures_being_saved", fmt::format("{}", screenshots_.running()));
     log.end_frame();

@@ -102,12 +102,26 @@ public:
     void hand(const std::string& actions) const { // words of xdotool
         if (std::system(("xdotool " + actions + " > /dev/null 2>&1").c_str()) != 0)
             ADD_FAILURE() << "xdotool " << actions;
-        rest(0.12);
+        rest(0.05);
+    }
+    // The next action waits until the program has seen this one: a busy machine may take a second for a frame.
+    void move(double x, double y) const {
+        hand(fmt::format("mousemove {:.0f} {:.0f}", x, y));
+        const auto seen = [&](const nlohmann::json& json) {
+            return std::abs(json["mouse"][0].get<double>() - std::round(x)) <= 1 &&
+                   std::abs(json["mouse"][1].get<double>() - std::round(y)) <= 1;
+        };
+        if (!wait(seen, 20)) ADD_FAILURE() << "the pointer at " << x << "," << y << " was not seen";
+    }
+    void press(bool down) const {
+        hand(down ? "mousedown 1" : "mouseup 1");
+        if (!wait([&](const nlohmann::json& json) { return json["mouse"][2] == (down ? 1 : 0); }, 20))
+            ADD_FAILURE() << "the button was not seen " << (down ? "down" : "up");
     }
     void click(double x, double y) const {
-        hand(fmt::format("mousemove {:.0f} {:.0f}", x, y));
-        hand("mousedown 1");
-        hand("mouseup 1");
+        move(x, y);
+        press(true);
+        press(false);
         rest(0.15);
     }
     void click(const std::string& widget) const {
@@ -116,17 +130,16 @@ public:
     }
     void drag(const std::string& widget, double from, double to) const {
         const auto place = box(widget);
-        hand(fmt::format("mousemove {:.0f} {:.0f}", place.x(from), place.y()));
-        hand("mousedown 1");
-        for (int i = 1; i <= 5; ++i)
-            hand(fmt::format("mousemove {:.0f} {:.0f}", place.x(from + (to - from) * i / 5), place.y()));
-        hand("mouseup 1");
+        move(place.x(from), place.y());
+        press(true);
+        for (int i = 1; i <= 5; ++i) move(place.x(from + (to - from) * i / 5), place.y());
+        press(false);
         rest(0.15);
     }
     // Out of the way, where nothing lights up under the pointer.
     void rest_hand() const {
         const auto viewport = box("viewport");
-        hand(fmt::format("mousemove {:.0f} {:.0f}", viewport.x0 + 4, viewport.y0 + 4));
+        move(viewport.x0 + 4, viewport.y0 + 4);
     }
     Pixels screen() const { return screen_.pixels(); }
 
