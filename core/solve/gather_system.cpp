@@ -159,20 +159,8 @@ void GatherSystem::set_guess(ChannelField radiosity) {
     x_ = std::move(radiosity);
 }
 
-void GatherSystem::set_rows(const std::vector<GatherPass>& passes) {
-    const std::atomic<bool> never{false};
-    apply_rows(passes, RayEnds::coarse, x_, h_, never);
-    refresh_residual();
-}
-
 void GatherSystem::set_rows(ChannelField gathered_radiosity) {
     h_ = std::move(gathered_radiosity);
-    refresh_residual();
-}
-
-void GatherSystem::clear() {
-    std::fill(x_.values.begin(), x_.values.end(), 0.0f);
-    std::fill(h_.values.begin(), h_.values.end(), 0.0f);
     refresh_residual();
 }
 

@@ -52,10 +52,8 @@ public:
     // The same with a first guess of one's own: `radiosity` has n + 1 rows, `gathered_radiosity` is W of it.
     void set_sources(const ChannelField& rho, const ChannelField& gathered, ChannelField radiosity,
                      ChannelField gathered_radiosity);
-    void set_guess(ChannelField radiosity);               // n + 1 rows; set_rows and set_sources are still to come
-    void set_rows(const std::vector<GatherPass>& passes); // other rays: W U anew
-    void set_rows(ChannelField gathered_radiosity);       // the same where W U is known
-    void clear();                                         // U = 0
+    void set_guess(ChannelField radiosity);         // n + 1 rows; set_rows and set_sources are still to come
+    void set_rows(ChannelField gathered_radiosity); // other rays: W U of them
 
     // Brings a sweep forward by one time slice; true when it is through, and nothing has changed before.
     bool sweep(const std::vector<GatherPass>& passes, const std::atomic<bool>& cancel);

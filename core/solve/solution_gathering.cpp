@@ -142,55 +142,7 @@ bool has_other_rows(const State& s) {
     return !s.solving || s.rows_of_system != s.passes_traced;
 }
 
-// New sources, paints or rays: one reflection of direct light is gathered anew, then the system holds them.
-void gather_direct(State& s) {
-    const std::uint32_t n = s.receivers.count();
-    const std::atomic<bool> never{false};
-    const bool other_rows = has_other_rows(s);
-    if (!s.solving) s.indirect_irradiance = {}; // of other channels, or another solver's
-    if (!s.solving || s.system.count() != n) {
-        std::optional<ChannelField> guess;
-        if (s.rows_in_the_making)
-            guess = std::move(s.rows_in_the_making->guess);
-        else if (s.solving && s.system.count() > 0)
-            guess = radiosity_of_more_receivers(s);
-        s.system = GatherSystem(n, s.channels(), receiver_areas(s));
-        if (guess) s.system.set_guess(std::move(*guess));
-    }
-    if (other_rows) {
-        s.light_bases.forget();
-        s.basis_in_the_making.reset();
-        if (s.rows_in_the_making)
-            s.system.set_rows(std::move(s.rows_in_the_making->arriving));
-        else
-            s.system.set_rows(s.passes);
-        s.rows_of_system = s.passes_traced;
-        renew_smoothing(s);
-    }
-    s.light_bases.keep_for(room_for_bases(s), s.material_rho);
-    if (auto known = s.light_bases.sum(s.luminaire_exitance)) {
-        s.gathered_direct = std::move(known->gathered);
-        s.system.set_sources(rho_of_receivers(s), s.gathered_direct, std::move(known->radiosity),
-                             std::move(known->arriving));
-    } else {
-        if (s.rows_in_the_making) {
-            s.gathered_direct = std::move(s.rows_in_the_making->gathered);
-        } else {
-            s.gathered_direct = ChannelField(n, s.channels());
-            apply_rows(s.passes, RayEnds::fine, reflected_direct(s, s.luminaire_exitance), s.gathered_direct, never);
-        }
-        s.system.set_sources(rho_of_receivers(s), s.gathered_direct);
-    }
-    s.solving = true;
-    s.status.sweeps = 0;
-    s.sweep_uncounted = false;
-    // A picture that is there stays until the next step.
-    s.indirect_stale = s.rows_in_the_making && s.indirect_irradiance.count > 0;
-    s.rows_in_the_making.reset();
-    if (!s.indirect_stale) refresh_indirect(s);
-}
-
-// What takes long of it, slice by slice; true when the rest is left.
+// What takes long of giving the system other rows, slice by slice; true when the rest is left.
 bool prepare_rows(State& s, const std::atomic<bool>& cancel) {
     TimeSlice slice(cancel);
     renew_smoothing(s);
@@ -215,6 +167,53 @@ bool prepare_rows(State& s, const std::atomic<bool>& cancel) {
         if (slice.over()) return false;
     }
     return true;
+}
+
+// Other rays: those that there are more of now start from what is known, and one reflection of direct light is as
+// gathered by them.
+void set_other_rows(State& s) {
+    const std::atomic<bool> never{false};
+    while (!prepare_rows(s, never)) {
+    }
+    State::RowsInTheMaking rows = std::move(*s.rows_in_the_making);
+    s.rows_in_the_making.reset();
+    s.light_bases.forget();
+    s.basis_in_the_making.reset();
+    if (!s.solving || s.system.count() != s.receivers.count()) {
+        s.system = GatherSystem(s.receivers.count(), s.channels(), receiver_areas(s));
+        if (rows.guess) s.system.set_guess(std::move(*rows.guess));
+    }
+    s.system.set_rows(std::move(rows.arriving));
+    s.rows_of_system = s.passes_traced;
+    s.gathered_direct = std::move(rows.gathered);
+    s.system.set_sources(rho_of_receivers(s), s.gathered_direct);
+}
+
+// On the same rows: what is known of each luminaire alone is added up, or else gathered anew.
+void set_other_sources(State& s) {
+    s.light_bases.keep_for(room_for_bases(s), s.material_rho);
+    if (auto known = s.light_bases.sum(s.luminaire_exitance)) {
+        s.gathered_direct = std::move(known->gathered);
+        s.system.set_sources(rho_of_receivers(s), s.gathered_direct, std::move(known->radiosity),
+                             std::move(known->arriving));
+        return;
+    }
+    const std::atomic<bool> never{false};
+    s.gathered_direct = ChannelField(s.receivers.count(), s.channels());
+    apply_rows(s.passes, RayEnds::fine, reflected_direct(s, s.luminaire_exitance), s.gathered_direct, never);
+    s.system.set_sources(rho_of_receivers(s), s.gathered_direct);
+}
+
+// New sources, paints or rays: one reflection of direct light is gathered anew, then the system holds them.
+void gather_direct(State& s) {
+    if (!s.solving) s.indirect_irradiance = {}; // of other channels, or another solver's
+    // A picture that is there stays until the next step, if that was prepared in steps.
+    s.indirect_stale = s.rows_in_the_making && s.indirect_irradiance.count > 0;
+    has_other_rows(s) ? set_other_rows(s) : set_other_sources(s);
+    s.solving = true;
+    s.status.sweeps = 0;
+    s.sweep_uncounted = false;
+    if (!s.indirect_stale) refresh_indirect(s);
 }
 
 // The rows that are traced are given to the system.

@@ -122,7 +122,7 @@ struct Solution::State {
     bool rows_wait = false;       // all are traced, and not yet given to the system
     bool sweep_uncounted = false; // of a sweep that is through not all is shown
     bool indirect_stale = false;  // indirect_irradiance is of the sweep before
-    LightBases light_bases;       // of these
+    LightBases light_bases;       // of the rows of `system`
     struct BasisInTheMaking {
         static constexpr std::size_t all_as_they_are = no_index; // in place of one luminaire
         Exitances exitance;                                      // what it is the solution of

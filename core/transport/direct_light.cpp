@@ -41,19 +41,13 @@ bool nothing_arrives(const Emitter& emitter, glm::vec3 origin, glm::vec3 normal)
     return emitter.area <= 0 || glm::dot(emitter.centre - origin, normal) <= -emitter.radius;
 }
 
-// All triangles look the same way. Of a box or a ball few of the points face a receiver.
-bool is_flat(const Emitter& emitter) {
-    return std::ranges::all_of(emitter.triangles, [&](const EmitterTriangle& t) {
-        return glm::dot(t.normal, emitter.triangles[0].normal) > 0.999f;
-    });
-}
-
-// Whether the exact formula is worth its time: near, where there are few triangles, or where the points tell little.
+// Whether the exact formula is worth its time: near, where there are few triangles, or where the points tell little,
+// for of a box or a ball few of them face a receiver.
 bool is_exact(const Emitter& emitter, glm::vec3 origin) {
     const std::size_t count = emitter.triangles.size();
     if (count <= few_triangles || count > most_exact_triangles) return count <= few_triangles;
     const bool near = glm::length(emitter.centre - origin) < far_diameters * 2 * emitter.radius;
-    return near || !is_flat(emitter);
+    return near || !emitter.flat;
 }
 
 double far_form_factor(const Emitter& emitter, glm::vec3 origin, glm::vec3 normal) {
@@ -141,6 +135,7 @@ Emitter make_emitter(std::vector<EmitterTriangle> triangles) {
     for (const EmitterTriangle& t : e.triangles) {
         e.area += t.area;
         e.cumulative_area.push_back(e.area);
+        e.flat = e.flat && glm::dot(t.normal, e.triangles[0].normal) > 0.999f;
         for (const glm::vec3& c : t.corners) low = glm::min(low, c), high = glm::max(high, c);
     }
     e.centre = 0.5f * (low + high);
@@ -291,7 +286,7 @@ float direct_form_factor(const World& world, const Emitter& emitter, glm::vec3 o
     }
     const double f = exact ? exact_form_factor(emitter, origin, normal) : far_form_factor(emitter, origin, normal);
     // The points also stand for the formula itself: to 0.5 % at far_diameters for what is flat, of a ball to 5 %.
-    const double formula = exact ? 0 : (is_flat(emitter) ? 0.005 : 0.05) * share.share;
+    const double formula = exact ? 0 : (emitter.flat ? 0.005 : 0.05) * share.share;
     if (deviation) *deviation = static_cast<float>(f * std::hypot(share.deviation, formula));
     return static_cast<float>(f * share.share);
 }

@@ -36,6 +36,7 @@ struct Emitter {
     float area = 0;
     glm::vec3 centre{0};
     float radius = 0;                   // of a sphere around it
+    bool flat = true;                   // all triangles look the same way
     EmitterPoint middle{};              // the stratified point nearest to the centre
     std::vector<EmitterPoint> probes;   // far apart: all seen or all hidden settles V
     std::vector<EmitterPoint> points;   // stratified by area

@@ -205,7 +205,7 @@ bool DirectTransport::begin_level(const std::atomic<bool>& cancel) {
     return true;
 }
 
-void DirectTransport::judge() {
+std::vector<float> DirectTransport::bent_edges() {
     std::vector<float> bent(edges_.edges().size(), 0); // the misfit where it is too large
     for (std::size_t e = 0; e < bent.size(); ++e) {
         const EdgeRefinement::Edge& edge = edges_.edges()[e];
@@ -217,7 +217,7 @@ void DirectTransport::judge() {
         bent[e] = misfit > params_.tolerance && !inside ? misfit : 0;
         if (bent[e] == 0 && !inside) misfit_sum_ += double(misfit) * misfit, ++misfit_count_;
     }
-    edges_.judge(std::move(bent));
+    return bent;
 }
 
 void DirectTransport::split_bent() {
@@ -295,7 +295,6 @@ void DirectTransport::spread_deviations() {
 void DirectTransport::follow_mesh() {
     follow_vertices();
     if (!refined_) edges_.follow_mesh(); // refine() goes on from here
-    part_ = Part::prepare;
 }
 
 // New vertices have what their parents have.
@@ -327,28 +326,11 @@ void DirectTransport::follow_vertices() {
 
 bool DirectTransport::refine(const std::atomic<bool>& cancel, std::uint32_t levels) {
     if (refined() || level_ >= levels) return true;
-    switch (part_) { // each a step of its own
-    case Part::prepare:
-        if (edges_.prepare(cancel)) part_ = Part::begin;
-        return false;
-    case Part::begin:
-        if (begin_level(cancel)) part_ = Part::look;
-        return false;
-    case Part::look:
-        if (!look(cancel)) return false;
-        judge();
-        part_ = Part::plan;
-        return false;
-    case Part::plan:
-        if (edges_.plan_split(cancel)) part_ = Part::split;
-        return false;
-    case Part::split:
-        split_bent();
-        part_ = Part::prepare;
-        edge_cursor_ = 0;
-        ++level_;
-        break;
-    }
+    const EdgeRefinement::Level level{[&] { return begin_level(cancel); }, [&] { return look(cancel); },
+                                      [&] { return bent_edges(); }, [&] { split_bent(); }};
+    if (!edges_.step(level, cancel)) return false;
+    edge_cursor_ = 0;
+    ++level_;
     return refined_ || level_ >= levels;
 }
 

@@ -103,7 +103,7 @@ private:
     void spread_deviations();
     bool begin_level(const std::atomic<bool>& cancel);
     bool look(const std::atomic<bool>& cancel);
-    void judge();
+    std::vector<float> bent_edges(); // their misfits, 0 where they are straight
     void split_bent();
     std::uint32_t sampled_vertices() const { return static_cast<std::uint32_t>(samples_.of_vertex.size()); }
     std::uint32_t row_of(std::uint32_t v) const { // no_index: it reads samples
@@ -131,7 +131,6 @@ private:
     std::uint32_t sketch_cursor_ = 0, row_cursor_ = 0, lit_rows_ = 0;
 
     std::uint32_t edge_cursor_ = 0;
-    enum class Part { prepare, begin, look, plan, split } part_ = Part::prepare; // of a level
     bool refined_ = false;
     std::uint32_t level_ = 0;    // so many are done
     bool spread_pending_ = true; // spread_deviations, when the vertices are lit

@@ -40,7 +40,32 @@ EdgeRefinement::EdgeRefinement(Mesh& mesh, Room room)
 
 void EdgeRefinement::follow_mesh() {
     bisection_.reset();
+    part_ = Part::prepare;
     if (std::exchange(collecting_, false)) next_node_ = first_node_; // again
+}
+
+bool EdgeRefinement::step(const Level& level, const std::atomic<bool>& cancel) {
+    switch (part_) {
+    case Part::prepare:
+        if (prepare(cancel)) part_ = Part::collect;
+        return false;
+    case Part::collect:
+        if (level.collect()) part_ = Part::look;
+        return false;
+    case Part::look:
+        if (!level.look()) return false;
+        judge(level.bent());
+        part_ = Part::plan;
+        return false;
+    case Part::plan:
+        if (plan_split(cancel)) part_ = Part::split;
+        return false;
+    case Part::split:
+        level.split();
+        part_ = Part::prepare;
+        return true;
+    }
+    return true;
 }
 
 bool EdgeRefinement::prepare(const std::atomic<bool>& cancel) {

@@ -34,8 +34,16 @@ public:
     };
 
     void follow_mesh(); // it was cut by someone else
-    // Before collect: finds the leaves at each edge, one time slice of it; true when all are known.
-    bool prepare(const std::atomic<bool>& cancel);
+
+    // What is the caller's of a level. collect: calls collect(); look: at the middles of edges(), one time slice, true
+    // at the end; bent: of each edge, by how much its middle is off, 0: straight; split: calls split().
+    struct Level {
+        std::function<bool()> collect, look;
+        std::function<std::vector<float>()> bent;
+        std::function<void()> split;
+    };
+    // Brings a level forward by one part of it, in slices that end when time is up; true when it has ended.
+    bool step(const Level& level, const std::atomic<bool>& cancel);
     bool begun() const { return first_node_ > 0; }
 
     // A new level, one time slice of it, true at the end: the edges of the leaves made since the last one, but of
@@ -46,19 +54,20 @@ public:
     const std::vector<Edge>& edges() const { return edges_; }
     Place middle(const Edge& edge, float epsilon) const;
 
-    // bent: of each edge, by how much its middle is off; 0: straight.
-    void judge(std::vector<float> bent);
-    // One time slice of finding the leaves at bent edges; true when all are known.
-    bool plan_split(const std::atomic<bool>& cancel);
-    // Then splits them (and neighbours, as conformity asks), the largest misfits by area first, until there are
-    // `most_vertices`, and lists the leaves anew.
+    // Splits the leaves at bent edges (and neighbours, as conformity asks), the largest misfits by area first, until
+    // there are `most_vertices`, and lists the leaves anew.
     void split(std::uint32_t most_vertices);
     // The edge of this level whose middle a new vertex is; no_index: it was made for conformity.
     std::uint32_t edge_of(std::uint32_t vertex) const;
 
 private:
+    bool prepare(const std::atomic<bool>& cancel); // finds the leaves at each edge
+    void judge(std::vector<float> bent);
+    bool plan_split(const std::atomic<bool>& cancel); // finds the leaves at bent edges
+
     Mesh& mesh_;
     Room room_;
+    enum class Part { prepare, collect, look, plan, split } part_ = Part::prepare; // of a level
     std::optional<Bisection> bisection_; // made when edges are first asked for
     std::vector<Edge> edges_;
     std::unordered_map<std::uint64_t, std::uint32_t> edge_slot_;

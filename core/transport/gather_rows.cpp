@@ -10,7 +10,7 @@ namespace lueur {
 
 namespace {
 
-constexpr int most_back_faces = 4; // a quarter
+constexpr std::uint32_t most_back_faces = 4; // a quarter
 
 // One of three vertices, by interpolation weight, among those that are not buried.
 std::uint32_t pick_vertex(const glm::uvec3& v, glm::vec3 w, const std::vector<std::uint8_t>& buried, float u) {
@@ -32,18 +32,38 @@ std::uint32_t pick_vertex(const glm::uvec3& v, glm::vec3 w, const std::vector<st
 constexpr std::uint32_t rays_at_once = burial_rays;
 static_assert(rays_per_pass % rays_at_once == 0);
 
-// Rays of a vertex, from number `first` of the sequence of their set on.
-std::array<Hit, rays_at_once> trace_from(const World& world, const Mesh& mesh, const std::vector<glm::vec3>& origins,
-                                         std::uint32_t vertex, std::uint32_t seed, std::uint32_t set,
-                                         std::uint32_t first) {
+using Hits = std::array<Hit, rays_at_once>;
+
+// Rays from number `first` of a sequence on.
+Hits trace_from(const World& world, glm::vec3 origin, glm::vec3 normal, glm::vec2 offset, std::uint32_t first) {
     std::array<glm::vec3, rays_at_once> directions;
-    std::array<Hit, rays_at_once> hits;
-    const Frame frame(mesh.vertices[vertex].normal);
-    const glm::vec2 offset = random_offset(hash(seed, set), vertex);
+    Hits hits;
+    const Frame frame(normal);
     for (std::uint32_t k = 0; k < rays_at_once; ++k)
         directions[k] = frame.world(cosine_direction(r2_point(first + k, offset)));
-    world.closest(origins[vertex], directions, hits);
+    world.closest(origin, directions, hits);
     return hits;
+}
+
+// Of a vertex, in the sequence of one set.
+glm::vec2 offset_of(std::uint32_t vertex, std::uint32_t seed, std::uint32_t set) {
+    return random_offset(hash(seed, set), vertex);
+}
+
+void keep(const Hits& hits, RayHit* out) {
+    for (const Hit& hit : hits) *out++ = {hit.element, hit.b1, hit.b2};
+}
+
+std::uint32_t back_faces_of(const Hits& hits) {
+    return static_cast<std::uint32_t>(std::ranges::count_if(hits, &Hit::back_face));
+}
+
+// To what is around, harmonic mean, m.
+float distance_of(const Hits& hits) {
+    float nearness = 0;
+    for (const Hit& hit : hits)
+        if (hit.any()) nearness += 1 / std::max(hit.t, 1e-20f);
+    return nearness > 0 ? burial_rays / nearness : 1e30f;
 }
 
 } // namespace
@@ -51,35 +71,23 @@ std::array<Hit, rays_at_once> trace_from(const World& world, const Mesh& mesh, c
 void find_buried(const World& world, const Mesh& mesh, const std::vector<glm::vec3>& origins, std::uint32_t seed,
                  std::uint32_t first, std::uint32_t last, std::vector<std::uint8_t>& buried, Surroundings* around) {
     for (std::uint32_t i = first; i < last; ++i) {
-        std::uint8_t back_faces = 0, lit = 0, near = 0;
-        float nearness = 0;
-        const auto hits = trace_from(world, mesh, origins, i, seed, 0, 0);
-        for (const Hit& hit : hits) {
-            back_faces = static_cast<std::uint8_t>(back_faces + hit.back_face);
-            lit = static_cast<std::uint8_t>(lit + (hit.element != no_index));
-            near = static_cast<std::uint8_t>(near + (around && hit.any() && hit.t < around->near_distance));
-            if (hit.any()) nearness += 1 / std::max(hit.t, 1e-20f);
-        }
+        const Hits hits = trace_from(world, origins[i], mesh.vertices[i].normal, offset_of(i, seed, 0), 0);
+        const std::uint32_t back_faces = back_faces_of(hits);
         buried[i] = back_faces > most_back_faces;
         if (!around) continue;
-        around->back[i] = back_faces, around->lit[i] = lit, around->near[i] = near;
-        around->distance[i] = nearness > 0 ? burial_rays / nearness : 1e30f;
-        if (around->hits.empty()) continue;
-        for (std::size_t k = 0; k < burial_rays; ++k)
-            around->hits[i * burial_rays + k] = {hits[k].element, hits[k].b1, hits[k].b2};
+        around->back[i] = static_cast<std::uint8_t>(back_faces);
+        around->lit[i] = static_cast<std::uint8_t>(
+            std::ranges::count_if(hits, [](const Hit& hit) { return hit.element != no_index; }));
+        around->near[i] = static_cast<std::uint8_t>(
+            std::ranges::count_if(hits, [&](const Hit& hit) { return hit.any() && hit.t < around->near_distance; }));
+        around->distance[i] = distance_of(hits);
+        if (!around->hits.empty()) keep(hits, around->hits.data() + std::size_t(i) * burial_rays);
     }
 }
 
 LookAround look_around(const World& world, glm::vec3 origin, glm::vec3 normal) {
-    const Frame frame(normal);
-    int back_faces = 0;
-    float nearness = 0;
-    for (std::uint32_t k = 0; k < burial_rays; ++k) {
-        const Hit hit = world.closest({origin, frame.world(cosine_direction(r2_point(k, {0, 0})))});
-        back_faces += hit.back_face;
-        if (hit.any()) nearness += 1 / std::max(hit.t, 1e-20f);
-    }
-    return {back_faces > most_back_faces, nearness > 0 ? burial_rays / nearness : 1e30f};
+    const Hits hits = trace_from(world, origin, normal, {0, 0}, 0);
+    return {back_faces_of(hits) > most_back_faces, distance_of(hits)};
 }
 
 std::vector<RayHit> hits_of_burial(const Receivers& receivers, const std::vector<RayHit>& hits) {
@@ -112,8 +120,9 @@ std::uint64_t trace_gather_rays(const World& world, const Mesh& mesh, const std:
         RayHit* hits = i < known ? out.hits.data() + row : fresh.data();
         for (std::uint32_t k = 0; k < rays_per_pass; k += rays_at_once) {
             if (i < known && hits[k].element != RayHit::untraced) continue;
-            const auto met = trace_from(world, mesh, origins, vertex, seed, pass % independent_sets, first_point + k);
-            for (std::size_t r = 0; r < rays_at_once; ++r) hits[k + r] = {met[r].element, met[r].b1, met[r].b2};
+            keep(trace_from(world, origins[vertex], mesh.vertices[vertex].normal,
+                            offset_of(vertex, seed, pass % independent_sets), first_point + k),
+                 hits + k);
             traced += rays_at_once;
         }
         for (std::size_t k = 0; k < rays_per_pass; ++k) {

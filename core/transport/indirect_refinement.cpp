@@ -99,7 +99,7 @@ bool IndirectRefinement::begin_level(const std::atomic<bool>& cancel) {
     return true;
 }
 
-void IndirectRefinement::judge() {
+std::vector<float> IndirectRefinement::bent_edges() {
     const std::vector<EdgeRefinement::Edge>& edges = edges_.edges();
     for (std::size_t c = 0; c < corners_.size(); ++c) light_[corners_[c]] = seen_[edges.size() + c].light;
     std::vector<float> bent(edges.size(), 0);
@@ -116,7 +116,7 @@ void IndirectRefinement::judge() {
         const float misfit = std::abs(here - guess) / std::max(floor_, here + direct / ends);
         if (misfit > params_.tolerance) bent[e] = misfit;
     }
-    edges_.judge(std::move(bent));
+    return bent;
 }
 
 void IndirectRefinement::split_bent() {
@@ -145,27 +145,9 @@ void IndirectRefinement::split_bent() {
 
 bool IndirectRefinement::step(const std::atomic<bool>& cancel) {
     if (done_) return true;
-    switch (part_) { // each a step of its own
-    case Part::prepare:
-        if (edges_.prepare(cancel)) part_ = Part::begin;
-        return false;
-    case Part::begin:
-        if (begin_level(cancel)) part_ = Part::look;
-        return false;
-    case Part::look:
-        if (!look(cancel)) return false;
-        judge();
-        part_ = Part::plan;
-        return false;
-    case Part::plan:
-        if (edges_.plan_split(cancel)) part_ = Part::split;
-        return false;
-    case Part::split:
-        split_bent();
-        part_ = Part::prepare;
-        return done_;
-    }
-    return done_;
+    const EdgeRefinement::Level level{[&] { return begin_level(cancel); }, [&] { return look(cancel); },
+                                      [&] { return bent_edges(); }, [&] { split_bent(); }};
+    return edges_.step(level, cancel) && done_;
 }
 
 bool IndirectRefinement::look(const std::atomic<bool>& cancel) {

@@ -50,7 +50,7 @@ private:
     bool is_close(std::uint32_t a, std::uint32_t b) const;
     bool begin_level(const std::atomic<bool>& cancel);
     bool look(const std::atomic<bool>& cancel);
-    void judge();
+    std::vector<float> bent_edges(); // their misfits, 0 where they are straight
     void split_bent();
 
     const World& world_;
@@ -69,7 +69,6 @@ private:
     std::vector<std::uint32_t> corners_; // vertices that the edges of this level ask for
     std::vector<Seen> seen_;             // of the edges, then of the corners
     std::uint32_t cursor_ = 0;
-    enum class Part { prepare, begin, look, plan, split } part_ = Part::prepare; // of a level
     bool done_ = false;
     mutable std::atomic<std::uint64_t> rays_{0};
 };

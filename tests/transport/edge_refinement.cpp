@@ -19,13 +19,13 @@ float finest_edge_at_the_step(Room room) {
         return a.y < 0.01f && b.y < 0.01f && (a.x < 0.111f) != (b.x < 0.111f);
     };
     float finest = 1e30f;
-    for (std::size_t before = 0; before != mesh.vertices.size();) {
-        before = mesh.vertices.size();
-        while (!edges.prepare(test::never)) {
-        }
-        while (!edges.collect(
-            0.01f, [](std::uint32_t, std::uint32_t) { return true; }, test::never)) {
-        }
+    EdgeRefinement::Level level;
+    level.collect = [&] {
+        return edges.collect(
+            0.01f, [](std::uint32_t, std::uint32_t) { return true; }, test::never);
+    };
+    level.look = [] { return true; };
+    level.bent = [&] {
         std::vector<float> bent;
         for (const EdgeRefinement::Edge& edge : edges.edges()) {
             bent.push_back(crosses(edge) ? 0.5f : 0.01f);
@@ -33,10 +33,13 @@ float finest_edge_at_the_step(Room room) {
                 finest =
                     std::min(finest, glm::distance(mesh.vertices[edge.a].position, mesh.vertices[edge.b].position));
         }
-        edges.judge(std::move(bent));
-        while (!edges.plan_split(test::never)) {
+        return bent;
+    };
+    level.split = [&] { edges.split(most); };
+    for (std::size_t before = 0; before != mesh.vertices.size();) {
+        before = mesh.vertices.size();
+        while (!edges.step(level, test::never)) {
         }
-        edges.split(most);
     }
     EXPECT_GE(mesh.vertices.size(), most - 100);
     EXPECT_LE(mesh.vertices.size(), most + 10);
