@@ -29,7 +29,8 @@ struct Sets {
 };
 
 Residual residual_at(const State& s, const ErrorLight& light, const ErrorModel& model, std::size_t i) {
-    constexpr int sets = ErrorProbes::sets, per_set = ErrorProbes::rays / sets;
+    constexpr std::size_t sets = ErrorProbes::sets;
+    const std::size_t per_set = static_cast<std::size_t>(s.probes.rays) / sets;
     const ErrorProbes::Point& p = s.probes.points[i];
     const std::size_t emitters = light.exitance.size();
     Sets direct, indirect;
@@ -37,8 +38,8 @@ Residual residual_at(const State& s, const ErrorLight& light, const ErrorModel& 
         for (std::size_t l = 0; l < emitters; ++l)
             direct.value[set] += double(s.probes.direct[(i * sets + set) * emitters + l]) * light.exitance[l];
         for (std::size_t k = 0; k < per_set; ++k)
-            if (const std::uint32_t end = s.probes.ends[i * ErrorProbes::rays + set * per_set + k]; end != no_index)
-                indirect.value[set] += double(light.reflected[end]) / per_set;
+            if (const std::uint32_t end = s.probes.ends[(i * sets + set) * per_set + k]; end != no_index)
+                indirect.value[set] += double(light.reflected[end]) / double(per_set);
     }
     Residual r{};
     r.point = &p;

@@ -1,6 +1,7 @@
 #include "core/solve/error_probes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -42,40 +43,70 @@ std::uint32_t pick(const Located& at, const std::vector<std::uint8_t>& buried, f
     return w[2] > 0 ? at.vertices[2] : (w[1] > 0 ? at.vertices[1] : at.vertices[0]);
 }
 
-constexpr int rays_of_set = ErrorProbes::rays / ErrorProbes::sets,
-              shadow_rays_of_set = ErrorProbes::shadow_rays / ErrorProbes::sets;
+constexpr int shadow_rays_of_set = ErrorProbes::shadow_rays / ErrorProbes::sets;
 
 // What a direction towards a luminaire counts, of both sets of rays together. Irradiance for unit exitance is the
 // integral of cos / pi, which rays by the cosine law have as their density; those to points of an area A have
-// r^2 / (A cos'). square: r^2; cosines: at the receiver and at the luminaire.
-double count_of_hit(double square, double cos_receiver, double cos_emitter, double area) {
-    const double by_cosine = rays_of_set * cos_receiver / std::numbers::pi,
+// r^2 / (A cos'). rays: of a set by the cosine law; square: r^2; cosines: at the receiver and at the luminaire.
+double count_of_hit(std::size_t rays, double square, double cos_receiver, double cos_emitter, double area) {
+    const double by_cosine = double(rays) * cos_receiver / std::numbers::pi,
                  by_area = shadow_rays_of_set * square / (area * cos_emitter);
     return cos_receiver / std::numbers::pi / (by_cosine + by_area);
 }
 
 // D by points of the luminaire, which hemisphere rays add to.
-double direct_of_points(const World& world, const Emitter& emitter, glm::vec3 origin, glm::vec3 normal,
-                        glm::vec2 offset) {
-    if (!(emitter.area > 0) || glm::dot(emitter.centre - origin, normal) <= -emitter.radius) return 0;
+double direct_of_points(const World& world, const Emitter& emitter, const ErrorProbes::Point& p,
+                        std::size_t rays_of_set, glm::vec2 offset) {
+    if (!(emitter.area > 0) || glm::dot(emitter.centre - p.origin, p.normal) <= -emitter.radius) return 0;
+    std::array<glm::vec3, World::packet> targets;
+    std::array<double, World::packet> counts;
+    std::size_t waiting = 0;
     double sum = 0;
+    const auto look = [&] {
+        const std::uint32_t hidden = world.hidden(p.origin, {targets.data(), waiting});
+        for (std::size_t k = 0; k < waiting; ++k)
+            if (!(hidden >> k & 1)) sum += counts[k];
+        waiting = 0;
+    };
     for (std::uint32_t k = 0; k < shadow_rays_of_set; ++k) {
-        const EmitterPoint p = emitter_point(emitter, r2_point(k, offset));
-        if (emitter_kernel(origin, normal, p) <= 0 || !sees(world, origin, p.position)) continue;
-        const glm::dvec3 d = p.position - origin;
+        const EmitterPoint point = emitter_point(emitter, r2_point(k, offset));
+        if (emitter_kernel(p.origin, p.normal, point) <= 0) continue;
+        const glm::dvec3 d = point.position - p.origin;
         const double square = glm::dot(d, d), r = std::sqrt(square);
-        sum += count_of_hit(square, glm::dot(d, glm::dvec3(normal)) / r, -glm::dot(d, glm::dvec3(p.normal)) / r,
-                            emitter.area);
+        targets[waiting] = point.position;
+        counts[waiting++] = count_of_hit(rays_of_set, square, glm::dot(d, glm::dvec3(p.normal)) / r,
+                                         -glm::dot(d, glm::dvec3(point.normal)) / r, emitter.area);
+        if (waiting == World::packet) look();
     }
+    if (waiting > 0) look();
     return sum;
+}
+
+// What hemisphere rays that met luminaires add to their D.
+void add_luminaires_met(const Mesh& mesh, const std::vector<Emitter>& emitters,
+                        const std::vector<std::uint32_t>& luminaire_of_element, glm::vec3 normal,
+                        const std::vector<glm::vec3>& directions, const std::vector<Hit>& hits, float* direct) {
+    for (std::size_t k = 0; k < hits.size(); ++k) {
+        const Hit& hit = hits[k];
+        const std::uint32_t l = hit.element == no_index ? no_index : luminaire_of_element[hit.element];
+        if (l == no_index) continue;
+        const glm::uvec3& v = mesh.nodes[hit.element].vertices;
+        const glm::vec3 n = glm::normalize(glm::cross(mesh.vertices[v.y].position - mesh.vertices[v.x].position,
+                                                      mesh.vertices[v.z].position - mesh.vertices[v.x].position));
+        const double cos_receiver = glm::dot(directions[k], normal), cos_emitter = -glm::dot(directions[k], n);
+        if (cos_receiver > 0 && cos_emitter > 0)
+            direct[l] += static_cast<float>(
+                count_of_hit(hits.size(), double(hit.t) * hit.t, cos_receiver, cos_emitter, emitters[l].area));
+    }
 }
 
 } // namespace
 
 void place_probes(const World& world, const Mesh& mesh, const DirectTransport& direct,
                   const std::vector<std::uint8_t>& buried, std::vector<std::uint32_t> luminaire_of_element,
-                  std::uint32_t count, std::uint32_t seed, ErrorProbes& probes) {
+                  std::uint32_t count, int rays, std::uint32_t seed, ErrorProbes& probes) {
     probes = {};
+    probes.rays = rays;
     probes.luminaire_of_element = std::move(luminaire_of_element);
     const std::vector<float> uncertainty = direct_uncertainty(mesh, direct);
     const std::vector<glm::vec3> origins = ray_origins(mesh, world.epsilon());
@@ -141,52 +172,44 @@ void place_probes(const World& world, const Mesh& mesh, const DirectTransport& d
         probes.points.push_back(p);
     }
     probes.direct.assign(probes.points.size() * ErrorProbes::sets * direct.emitter_count(), 0);
-    probes.ends.assign(probes.points.size() * ErrorProbes::rays, no_index);
+    probes.ends.assign(probes.points.size() * static_cast<std::size_t>(rays), no_index);
 }
 
 bool trace_probes(const World& world, const Mesh& mesh, const DirectTransport& direct,
                   const std::vector<std::uint8_t>& buried, std::uint32_t seed, const std::atomic<bool>& cancel,
                   ErrorProbes& probes) {
-    const std::size_t emitters = direct.emitter_count();
-    return run_slice(
-        probes.cursor, static_cast<std::uint32_t>(probes.points.size()), 1, cancel,
-        [&](std::uint32_t first, std::uint32_t last) {
-            for (std::uint32_t i = first; i < last; ++i) {
-                ErrorProbes::Point& p = probes.points[i];
-                std::uint32_t near = 0;
-                const Frame frame(p.normal);
-                for (std::uint32_t set = 0; set < ErrorProbes::sets; ++set) {
-                    const std::uint32_t key = hash(hash(seed, 0x9e0b0000u + set), i);
-                    float* d = probes.direct.data() + (std::size_t(i) * ErrorProbes::sets + set) * emitters;
-                    for (std::size_t l = 0; l < emitters; ++l)
-                        d[l] =
-                            static_cast<float>(direct_of_points(world, direct.emitters()[l], p.origin, p.normal,
-                                                                random_offset(key, static_cast<std::uint32_t>(l) + 1)));
-                    const glm::vec2 offset = random_offset(key, 0);
-                    for (std::uint32_t k = 0; k < rays_of_set; ++k) {
-                        const glm::vec3 way = frame.world(cosine_direction(r2_point(k, offset)));
-                        const Hit hit = world.closest({p.origin, way});
-                        if (hit.element == no_index) continue;
-                        near += hit.t < p.reach;
-                        if (const std::uint32_t l = probes.luminaire_of_element[hit.element]; l != no_index) {
-                            const glm::uvec3& v = mesh.nodes[hit.element].vertices;
-                            const glm::vec3 n =
-                                glm::normalize(glm::cross(mesh.vertices[v.y].position - mesh.vertices[v.x].position,
-                                                          mesh.vertices[v.z].position - mesh.vertices[v.x].position));
-                            const double cos_receiver = glm::dot(way, p.normal), cos_emitter = -glm::dot(way, n);
-                            if (cos_receiver > 0 && cos_emitter > 0)
-                                d[l] += static_cast<float>(count_of_hit(double(hit.t) * hit.t, cos_receiver,
-                                                                        cos_emitter, direct.emitters()[l].area));
-                        }
-                        const std::uint32_t end =
-                            pick(locate(mesh, hit.element, hit.b1, hit.b2), buried, unit_float(hash(key, k)));
-                        if (end != no_index)
-                            probes.ends[std::size_t(i) * ErrorProbes::rays + set * rays_of_set + k] = end;
-                    }
-                }
-                p.near = static_cast<float>(near) / ErrorProbes::rays;
-            }
-        });
+    const std::vector<Emitter>& emitters = direct.emitters();
+    const auto rays_of_set = static_cast<std::uint32_t>(probes.rays / ErrorProbes::sets);
+    const auto trace = [&](std::uint32_t i) {
+        ErrorProbes::Point& p = probes.points[i];
+        const Frame frame(p.normal);
+        std::vector<glm::vec3> directions(rays_of_set);
+        std::vector<Hit> hits(rays_of_set);
+        std::ptrdiff_t near = 0;
+        for (std::uint32_t set = 0; set < ErrorProbes::sets; ++set) {
+            const std::uint32_t key = hash(hash(seed, 0x9e0b0000u + set), i);
+            const std::size_t row = std::size_t(i) * ErrorProbes::sets + set;
+            float* d = probes.direct.data() + row * emitters.size();
+            for (std::uint32_t l = 0; l < emitters.size(); ++l)
+                d[l] =
+                    static_cast<float>(direct_of_points(world, emitters[l], p, rays_of_set, random_offset(key, l + 1)));
+            const glm::vec2 offset = random_offset(key, 0);
+            for (std::uint32_t k = 0; k < rays_of_set; ++k)
+                directions[k] = frame.world(cosine_direction(r2_point(k, offset)));
+            world.closest(p.origin, directions, hits);
+            add_luminaires_met(mesh, emitters, probes.luminaire_of_element, p.normal, directions, hits, d);
+            near += std::ranges::count_if(hits, [&](const Hit& h) { return h.element != no_index && h.t < p.reach; });
+            for (std::uint32_t k = 0; k < rays_of_set; ++k)
+                if (const Hit& hit = hits[k]; hit.element != no_index)
+                    probes.ends[row * rays_of_set + k] =
+                        pick(locate(mesh, hit.element, hit.b1, hit.b2), buried, unit_float(hash(key, k)));
+        }
+        p.near = static_cast<float>(near) / static_cast<float>(probes.rays);
+    };
+    return run_slice(probes.cursor, static_cast<std::uint32_t>(probes.points.size()), 1, cancel,
+                     [&](std::uint32_t first, std::uint32_t last) {
+                         for (std::uint32_t i = first; i < last; ++i) trace(i);
+                     });
 }
 
 } // namespace lueur

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -27,6 +28,11 @@ inline std::uint32_t probe_count(const Mesh& mesh) {
     return std::clamp(static_cast<std::uint32_t>(mesh.elements.size() / 150), 400u, 800u);
 }
 
+// A point: their own noise, which is known and taken off, must not hide the error that is asked about.
+inline int probe_rays(double target_error) {
+    return std::clamp(static_cast<int>(512 * std::pow(0.02 / target_error, 2)) / 32 * 32, 128, 512);
+}
+
 struct ErrorProbes {
     struct Point {
         glm::vec3 origin, normal;
@@ -37,9 +43,10 @@ struct ErrorProbes {
         float reach; // m, two elements
         float near;  // share of its rays that end within reach, where the field errs as it does here
     };
-    static constexpr int rays = 512, shadow_rays = 48; // a point; shadow rays a luminaire
-    static constexpr int sets = 4;                     // independent parts of both, which know their own spread
+    static constexpr int shadow_rays = 48; // a point and luminaire
+    static constexpr int sets = 4;         // independent parts of all rays of a point, which know their own spread
 
+    int rays = 0;                                    // a point
     std::vector<std::uint32_t> luminaire_of_element; // of coarse elements; no_index: not of one
     std::vector<Point> points;
     std::vector<float> direct;       // points * sets * emitters: D
@@ -48,10 +55,10 @@ struct ErrorProbes {
     bool complete() const { return !points.empty() && cursor == points.size(); }
 };
 
-// Chooses about `count` points on the mesh as it is now, half of them at vertices.
+// Chooses about `count` points on the mesh as it is now, half of them at vertices, each to have `rays` of them.
 void place_probes(const World& world, const Mesh& mesh, const DirectTransport& direct,
                   const std::vector<std::uint8_t>& buried, std::vector<std::uint32_t> luminaire_of_element,
-                  std::uint32_t count, std::uint32_t seed, ErrorProbes& probes);
+                  std::uint32_t count, int rays, std::uint32_t seed, ErrorProbes& probes);
 
 // Traces them by one time slice; true at the end.
 bool trace_probes(const World& world, const Mesh& mesh, const DirectTransport& direct,

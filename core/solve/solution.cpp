@@ -101,7 +101,8 @@ void warn_of_error(SolveStatus& status, const SolveSettings& solve) {
 void start_solver(State& s, bool same_sources) {
     if (s.solver() != SolverKind::hierarchical) s.status.links = 0;
     if (s.solver() != SolverKind::gathering) s.indirect_deviation.clear(), s.rays_unjudged = false; // another solver's
-    if (!s.fully_refined()) s.probes = {}; // they read the mesh as it was then
+    // They read the mesh as it was then, and are as many as the target asks for.
+    if (!s.fully_refined() || s.probes.rays != probe_rays(s.scene->solve.target_error)) s.probes = {};
     switch (s.solver()) {
     case SolverKind::automatic:
     case SolverKind::gathering:

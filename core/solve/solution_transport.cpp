@@ -160,11 +160,12 @@ bool ask_probes(State& s, const std::atomic<bool>& cancel) {
         for (std::uint32_t e = 0; e < luminaire.size(); ++e)
             if (const auto l = s.luminaire_of(s.mesh.coarse_surface[e], s.mesh.coarse_back[e] != 0))
                 luminaire[e] = static_cast<std::uint32_t>(*l);
-        place_probes(*s.world, s.mesh, *s.direct, buried, std::move(luminaire), probe_count(s.mesh), seed, s.probes);
+        place_probes(*s.world, s.mesh, *s.direct, buried, std::move(luminaire), probe_count(s.mesh),
+                     probe_rays(s.scene->solve.target_error), seed, s.probes);
     }
     if (!trace_probes(*s.world, s.mesh, *s.direct, buried, seed, cancel, s.probes)) return false;
     s.status.rays +=
-        s.probes.points.size() * (ErrorProbes::rays + ErrorProbes::shadow_rays * s.direct->emitter_count());
+        s.probes.ends.size() + s.probes.points.size() * ErrorProbes::shadow_rays * s.direct->emitter_count();
     return true;
 }
 
