@@ -92,7 +92,7 @@ TEST(Links, AreReciprocal) {
     for (const RefinementOracle oracle :
          {RefinementOracle::form_factor, RefinementOracle::flux, RefinementOracle::error}) {
         const Solution solution = test::solved(
-            hierarchical(test::small_room(), oracle, oracle == RefinementOracle::form_factor ? 0.1 : 0, 0.2));
+            hierarchical(test::small_room(), oracle, oracle == RefinementOracle::form_factor ? 0.2 : 0, 0.3));
         ASSERT_TRUE(solution.status().settled) << solution.status().message;
         const Hierarchy& h = *solution.state().hierarchy;
         std::map<std::pair<std::uint32_t, std::uint32_t>, float> factor;
@@ -150,7 +150,7 @@ TEST(Hierarchical, LectureFormLosesLittleInTheFurnace) {
 // Slices end wherever time is up or someone asks: the same links, the same light. And an edit that comes in the middle
 // of a round ends where the same scene opened afresh does.
 TEST(Hierarchical, StepsThatAreCutShortChangeNothing) {
-    const Scene scene = hierarchical(test::small_room(), RefinementOracle::error, 0, 0.2);
+    const Scene scene = hierarchical(test::small_room(), RefinementOracle::error, 0, 0.3);
     const Solution whole = test::solved(scene);
     Solution cut(std::make_shared<const Scene>(scene));
     std::atomic<bool> cancel{false}, over{false};
@@ -179,9 +179,7 @@ TEST(Hierarchical, StepsThatAreCutShortChangeNothing) {
         test::settle(edited);
         ASSERT_TRUE(edited.status().settled);
         // The clock says where steps end, and links that were made for more light stay: both are right to the target.
-        EXPECT_NEAR(mean_light(*edited.state().hierarchy) / mean_light(*fresh.state().hierarchy), 1,
-                    0.25 * scene.solve.target_error)
-            << share;
+        EXPECT_NEAR(mean_light(*edited.state().hierarchy) / mean_light(*fresh.state().hierarchy), 1, 0.05) << share;
     }
 }
 

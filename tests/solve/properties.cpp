@@ -159,7 +159,7 @@ TEST(Shooting, UnshotFluxFallsWithEveryShot) {
 TEST(Shooting, FurnaceAndGatheringAgree) {
     Scene scene = test::furnace(0.5);
     scene.solve.solver = SolverKind::shooting;
-    scene.solve.element_size = 0.3;
+    scene.solve.element_size = 0.5;
     const Solution furnace = test::solved(scene);
     const Wavelengths& w = *furnace.state().wavelengths;
     const std::vector<double> flat(w.size(), 1.0);

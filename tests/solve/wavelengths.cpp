@@ -22,6 +22,7 @@ Scene cornell_box() {
     EXPECT_TRUE(loaded);
     Scene scene = loaded->scene;
     scene.solve.target_error = 0.05;
+    scene.solve.element_size = 0.15; // wavelengths are asked about, not shadows
     return scene;
 }
 
