@@ -31,7 +31,7 @@ DirectTransport::DirectTransport(const World& world, Mesh& mesh, std::vector<Emi
     , emitters_(std::move(emitters))
     , params_(params)
     , samples_(std::move(samples))
-    , edges_(mesh, samples_.count() > 0 ? Room::for_finer_levels : Room::as_far_as_it_goes) {
+    , edges_(mesh, params.room) {
     weight_ = guessed_exitances(emitters_);
     buried_.assign(mesh_.vertices.size(), 0);
     rows_.resize(mesh_.vertices.size() - sampled_vertices() + samples_.count());

@@ -26,6 +26,7 @@ struct DirectParams {
     float smallest_edge = 0; // m: shorter edges are not split
     float element_size = 0;  // m: what stands for less than such an element is lit less finely
     std::uint32_t most_vertices = 60000;
+    Room room = Room::as_far_as_it_goes;
 };
 
 // What one emitter gives one place: D, irradiance for unit exitance, and its standard deviation: of the stratified
