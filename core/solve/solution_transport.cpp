@@ -116,13 +116,23 @@ void step_mesh(State& s) {
 
 void step_sketch(State& s, const std::atomic<bool>& cancel) {
     s.status.stage = SolveStage::direct;
-    if (s.direct->sketch(cancel)) s.phase = SolvePhase::light;
+    if (!s.direct->sketch(cancel)) return;
+    const bool light_takes_long = std::uint64_t(s.direct->row_count()) * s.direct->emitter_count() > most_lit_first;
+    s.phase = s.solver() == SolverKind::gathering && light_takes_long ? SolvePhase::burial : SolvePhase::light;
 }
 
 void step_light(State& s, const std::atomic<bool>& cancel) {
     s.status.stage = SolveStage::direct;
     if (!s.direct->light_vertices(cancel)) return;
-    s.phase = SolvePhase::burial;
+    if (s.receivers.count() == 0) {
+        s.phase = SolvePhase::burial;
+        return;
+    }
+    // Solved for a guess of it: now for itself, on more rays.
+    if (s.solver() == SolverKind::gathering && !s.passes.empty())
+        want_more_coarse_passes(s);
+    else
+        start_solver(s);
 }
 
 void step_burial(State& s, const std::atomic<bool>& cancel) {

@@ -11,6 +11,9 @@ namespace lueur {
 constexpr bool is_crowded(std::uint64_t coarse) {
     return coarse > 30000;
 }
+// Rows of direct light times luminaires: where there are more, indirect light is first solved for a guess of the
+// direct.
+inline constexpr std::uint64_t most_lit_first = 300000;
 inline constexpr double receiver_cell = 0.3; // of the coarse element size: what lies closer shares what is gathered
 // Coarse vertices that light is computed at; of meshes of more, it is computed at so many samples (light_samples.h).
 inline constexpr std::uint32_t most_samples = 80000;
