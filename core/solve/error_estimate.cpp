@@ -94,8 +94,7 @@ void estimate_error(const State& s, Field& field) {
     field.interpolation_error.assign(count, 0);
     field.relative_error.assign(count, 0);
     if (count == 0 || !s.direct || s.phase == SolvePhase::mesh) return;
-    const bool sketched = s.phase == SolvePhase::sketch || s.phase == SolvePhase::light;
-    if (sketched && !s.is_traced()) {
+    if (!s.direct->is_lit() && !s.is_traced()) {
         const ErrorMesh mesh = make_error_mesh(s.mesh, solved_vertices(s), s.all_buried(), s.buried, false);
         return know_nothing(s, mesh, error_light(s, mesh, field), field);
     }

@@ -1,6 +1,7 @@
 #include "core/solve/light_bases.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -52,6 +53,7 @@ void LightBases::forget() {
     given_up_.clear();
     reference_exitance_.clear();
     reference_ = {};
+    latest_.reset();
 }
 
 void LightBases::want(std::size_t luminaire) {
@@ -77,8 +79,24 @@ std::size_t LightBases::most() const {
     return each > 0 ? room_.most_bytes / each : 0;
 }
 
-std::optional<LightSolution> LightBases::sum(const Exitances& exitance) const {
-    if (exitance.size() != bases_.size() || room_.receivers == 0) return {};
+// What is left of a luminaire that was far brighter, and of many changes, is rounding.
+bool LightBases::is_near_latest(const Exitances& exitance) const {
+    constexpr int most_changes = 64;
+    constexpr double most_dimmed = 8;
+    if (!latest_ || latest_->changes >= most_changes) return false;
+    std::size_t changed = 0;
+    for (std::size_t l = 0; l < exitance.size(); ++l) {
+        if (exitance[l] == latest_->exitance[l]) continue;
+        if (!has(l) || exitance[l].size() != latest_->exitance[l].size()) return false;
+        ++changed;
+        for (std::size_t c = 0; c < exitance[l].size(); ++c)
+            if (most_dimmed * std::abs(exitance[l][c]) < latest_->brightest[l][c]) return false;
+    }
+    return 2 * changed <= count();
+}
+
+// From nothing, or from the reference; false when neither leads to these exitances.
+bool LightBases::begin_sum(const Exitances& exitance) {
     const auto can_start = [&](bool from_reference) {
         for (std::size_t l = 0; l < exitance.size(); ++l)
             if (!has(l) && (from_reference ? exitance[l] != reference_exitance_[l] : !is_zero(exitance[l])))
@@ -86,20 +104,34 @@ std::optional<LightSolution> LightBases::sum(const Exitances& exitance) const {
         return true;
     };
     const bool from_nothing = can_start(false); // the better start: nothing is left of a solution that was brighter
-    if (!from_nothing && (reference_exitance_.size() != exitance.size() || !can_start(true))) return {};
-    LightSolution total = from_nothing ? LightSolution{ChannelField(room_.receivers, room_.channels),
-                                                       ChannelField(room_.receivers + 1, room_.channels),
-                                                       ChannelField(room_.receivers, room_.channels)}
-                                       : reference_;
+    if (!from_nothing && (reference_exitance_.size() != exitance.size() || !can_start(true))) return false;
+    latest_.emplace();
+    latest_->exitance = from_nothing ? exitance : reference_exitance_;
+    if (from_nothing) {
+        for (std::vector<double>& e : latest_->exitance) std::ranges::fill(e, 0.0);
+        latest_->solution = {ChannelField(room_.receivers, room_.channels),
+                             ChannelField(room_.receivers + 1, room_.channels),
+                             ChannelField(room_.receivers, room_.channels)};
+    } else
+        latest_->solution = reference_;
+    latest_->brightest = latest_->exitance;
+    return true;
+}
+
+std::optional<LightSolution> LightBases::sum(const Exitances& exitance) {
+    if (exitance.size() != bases_.size() || room_.receivers == 0) return {};
+    if (!is_near_latest(exitance) && !begin_sum(exitance)) return {};
+    LightSolution& total = latest_->solution;
     std::vector<float> factor(static_cast<std::size_t>(total.gathered.stride), 0);
     for (std::size_t l = 0; l < exitance.size(); ++l) {
-        if (!has(l)) continue;
-        bool any = false;
+        std::vector<double>& before = latest_->exitance[l];
+        if (!has(l) || exitance[l] == before) continue;
         for (std::size_t c = 0; c < exitance[l].size(); ++c) {
-            factor[c] = static_cast<float>(exitance[l][c] - (from_nothing ? 0 : reference_exitance_[l][c]));
-            any = any || factor[c] != 0;
+            factor[c] = static_cast<float>(exitance[l][c] - before[c]);
+            latest_->brightest[l][c] = std::max(latest_->brightest[l][c], std::abs(exitance[l][c]));
         }
-        if (!any) continue;
+        before = exitance[l];
+        ++latest_->changes;
         add_multiple(bases_[l].gathered, factor, total.gathered);
         add_multiple(bases_[l].radiosity, factor, total.radiosity);
         add_multiple(bases_[l].arriving, factor, total.arriving);
@@ -120,6 +152,7 @@ bool LightBases::has_reference(const Exitances& exitance) const {
 void LightBases::set_reference(const Exitances& exitance, LightSolution settled) {
     reference_exitance_ = exitance;
     reference_ = std::move(settled);
+    latest_.reset();
 }
 
 std::optional<std::size_t> LightBases::next() const {
@@ -134,6 +167,7 @@ std::optional<std::size_t> LightBases::next() const {
 
 void LightBases::add(std::size_t luminaire, LightSolution basis) {
     bases_[luminaire] = std::move(basis);
+    latest_.reset();
     if (count() == bases_.size()) reference_exitance_.clear(), reference_ = {}; // needed no more
 }
 

@@ -42,7 +42,7 @@ public:
     void want(std::size_t luminaire);
 
     // The solution for these exitances, where it is known.
-    std::optional<LightSolution> sum(const Exitances& exitance) const;
+    std::optional<LightSolution> sum(const Exitances& exitance);
 
     // A settled solution to start from.
     bool has_reference(const Exitances& exitance) const;
@@ -59,6 +59,8 @@ public:
 private:
     bool has(std::size_t luminaire) const { return !bases_[luminaire].gathered.values.empty(); }
     std::size_t most() const; // bases
+    bool is_near_latest(const Exitances& exitance) const;
+    bool begin_sum(const Exitances& exitance);
 
     LightBasesRoom room_;
     Exitances rho_;
@@ -67,6 +69,13 @@ private:
     std::vector<std::size_t> wanted_; // the latest last
     Exitances reference_exitance_;
     LightSolution reference_;
+    // The sum that was asked for last: a slider that is dragged changes little of it.
+    struct Latest {
+        Exitances exitance, brightest; // what it is of; the most that each luminaire has been since it was begun
+        LightSolution solution;
+        int changes = 0; // since then
+    };
+    std::optional<Latest> latest_;
 };
 
 } // namespace lueur

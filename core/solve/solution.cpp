@@ -193,14 +193,20 @@ void Solution::update(std::shared_ptr<const Scene> scene, SolveFrom stale) {
     switch (s.phase) {
     case SolvePhase::mesh:
     case SolvePhase::sketch:
-    case SolvePhase::light:
     case SolvePhase::burial:
         return; // goes on to the solver
+    case SolvePhase::light:
+        if (s.passes.empty()) return;
+        [[fallthrough]];
     case SolvePhase::refine:
     case SolvePhase::transport:
     case SolvePhase::solve:
     case SolvePhase::settled:
     case SolvePhase::failed:
+        if (s.solver() != SolverKind::gathering && !s.direct->is_lit()) {
+            s.phase = SolvePhase::light; // only gathering begins with a guess of it
+            return;
+        }
         start_solver(s, same.sources);
     }
     s.status.seconds = seconds_since(start);

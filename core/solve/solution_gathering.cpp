@@ -308,6 +308,12 @@ void trace_gathering_rows(State& s, const std::atomic<bool>& cancel) {
     take_rows(s, cancel);
 }
 
+// First what tells most: rays, as long as they are few, then shadows' edges and contacts.
+void want_more_coarse_passes(State& s) {
+    s.passes_wanted = std::min(coarse_passes, 2 * s.passes_wanted);
+    s.phase = SolvePhase::transport;
+}
+
 void step_gathering(State& s, const std::atomic<bool>& cancel) {
     s.status.stage = SolveStage::solving;
     if (s.only_probes_left) {
@@ -340,14 +346,16 @@ void step_gathering(State& s, const std::atomic<bool>& cancel) {
     if (slice.over()) return; // what was done is not done again
     count_sweep();
     if (refined && s.passes.size() >= s.passes_wanted && s.probes.complete()) return settle(s);
+    if (!s.direct->is_lit()) {
+        s.phase = SolvePhase::light;
+        return;
+    }
     take_stock_of_gathering(s); // a settled solution is judged when it is shown
     if (refined) {
         s.only_probes_left = s.passes.size() >= s.passes_wanted;
         if (!s.only_probes_left) s.phase = SolvePhase::transport;
     } else if (!s.refined && s.passes.size() < coarse_passes) {
-        // First what tells most: rays, as long as they are few, then shadows' edges and contacts.
-        s.passes_wanted = std::min(coarse_passes, 2 * s.passes_wanted);
-        s.phase = SolvePhase::transport;
+        want_more_coarse_passes(s);
     } else {
         s.phase = SolvePhase::refine;
     }

@@ -67,6 +67,7 @@ void step_refine(Solution::State& s, const std::atomic<bool>& cancel); // direct
 void start_gathering(Solution::State& s, bool same_sources);
 void trace_gathering_rows(Solution::State& s, const std::atomic<bool>& cancel);
 void step_gathering(Solution::State& s, const std::atomic<bool>& cancel);
+void want_more_coarse_passes(Solution::State& s);
 void take_stock_of_gathering(Solution::State& s); // the error that its rays leave, where it has changed
 bool prepare_gathering_edits(Solution::State& s, const std::atomic<bool>& cancel); // false: nothing is left to prepare
 double gathering_progress(const Solution::State& s);

@@ -17,6 +17,10 @@ float cell_of(const State& s) {
     return static_cast<float>(receiver_cell * s.element_size);
 }
 
+Room room_of(const State& s) {
+    return is_crowded(s.mesh.coarse_vertex_count) ? Room::for_finer_levels : Room::as_far_as_it_goes;
+}
+
 // Cuts the mesh where indirect light needs more receivers than the coarse vertices; true at the end.
 bool refine_indirect(State& s, const std::atomic<bool>& cancel) {
     if (s.indirect_level || s.refined) return true;
@@ -26,7 +30,8 @@ bool refine_indirect(State& s, const std::atomic<bool>& cancel) {
             IndirectParams{.smallest_element = cell_of(s),
                            .smallest_edge = static_cast<float>(s.element_size / 8),
                            .most_vertices = s.mesh.coarse_vertex_count +
-                                            contact_vertices(s.mesh.coarse_vertex_count, s.receivers.count())});
+                                            contact_vertices(s.mesh.coarse_vertex_count, s.receivers.count()),
+                           .room = room_of(s)});
     const std::uint64_t rays = s.indirect_refinement->rays();
     const bool done = s.indirect_refinement->step(cancel);
     s.status.rays += s.indirect_refinement->rays() - rays;
@@ -99,7 +104,8 @@ void step_mesh(State& s) {
         s.around.hits.resize(std::size_t(s.mesh.coarse_vertex_count) * burial_rays);
     const DirectParams params{.smallest_edge = static_cast<float>(s.element_size / 8),
                               .element_size = static_cast<float>(s.element_size),
-                              .most_vertices = s.mesh.coarse_vertex_count + fine_vertices(s.mesh.coarse_vertex_count)};
+                              .most_vertices = s.mesh.coarse_vertex_count + fine_vertices(s.mesh.coarse_vertex_count),
+                              .room = room_of(s)};
     s.direct = std::make_unique<DirectTransport>(*s.world, s.mesh, make_emitters(*s.scene), params, std::move(samples));
     s.coarse_area = s.indirect_area = std::move(made.area);
     make_channels(s);
@@ -110,13 +116,23 @@ void step_mesh(State& s) {
 
 void step_sketch(State& s, const std::atomic<bool>& cancel) {
     s.status.stage = SolveStage::direct;
-    if (s.direct->sketch(cancel)) s.phase = SolvePhase::light;
+    if (!s.direct->sketch(cancel)) return;
+    const bool light_takes_long = std::uint64_t(s.direct->row_count()) * s.direct->emitter_count() > most_lit_first;
+    s.phase = s.solver() == SolverKind::gathering && light_takes_long ? SolvePhase::burial : SolvePhase::light;
 }
 
 void step_light(State& s, const std::atomic<bool>& cancel) {
     s.status.stage = SolveStage::direct;
     if (!s.direct->light_vertices(cancel)) return;
-    s.phase = SolvePhase::burial;
+    if (s.receivers.count() == 0) {
+        s.phase = SolvePhase::burial;
+        return;
+    }
+    // Solved for a guess of it: now for itself, on more rays.
+    if (s.solver() == SolverKind::gathering && !s.passes.empty())
+        want_more_coarse_passes(s);
+    else
+        start_solver(s);
 }
 
 void step_burial(State& s, const std::atomic<bool>& cancel) {

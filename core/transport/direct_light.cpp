@@ -16,16 +16,18 @@ namespace lueur {
 
 namespace {
 
-constexpr int shadow_points = 36;  // in a penumbra of many triangles
-constexpr int probe_points = 6;    // settle the fully lit and the fully dark
-constexpr float far_diameters = 4; // from here on points replace the exact formula
+constexpr int shadow_points = 36;               // in a penumbra of many triangles
+constexpr int some_points = 16, few_points = 8; // where less is to be known: the first of those
+constexpr int probe_points = 6;                 // settle the fully lit and the fully dark
+constexpr float far_diameters = 4;              // from here on points replace the exact formula
 constexpr std::size_t most_exact_triangles = 64;
 constexpr std::size_t few_triangles = 4; // no dearer than the points
 constexpr std::size_t most_parts = 16;   // of a luminaire
 // Of the visible share when half is seen: an edge cuts about sqrt(n) of n strata, each of which is then in or out by
 // chance: sqrt(sqrt(n) / 6) / n.
-constexpr double point_penumbra_deviation = 0.028;
-constexpr double probe_penumbra_deviation = 0.12; // ditto, of six probes at the rim
+double penumbra_deviation(double points) {
+    return std::sqrt(std::sqrt(points) / 6) / points;
+}
 
 double exact_form_factor(const Emitter& emitter, glm::vec3 origin, glm::vec3 normal) {
     double sum = 0;
@@ -127,7 +129,7 @@ void choose_probes(Emitter& emitter) {
     }
 }
 
-Emitter make_emitter(std::vector<EmitterTriangle> triangles) {
+Emitter make_emitter(std::vector<EmitterTriangle> triangles, std::uint32_t number) {
     Emitter e;
     e.triangles = std::move(triangles);
     if (e.triangles.empty()) return e;
@@ -143,10 +145,7 @@ Emitter make_emitter(std::vector<EmitterTriangle> triangles) {
         for (const glm::vec3& c : t.corners) e.radius = std::max(e.radius, glm::length(c - e.centre));
     for (int k = 0; k < shadow_points; ++k)
         e.points.push_back(emitter_point(e, r2_point(static_cast<std::uint32_t>(k), {0, 0})));
-    e.middle = *std::ranges::min_element(e.points, {}, [&](const EmitterPoint& p) {
-        const glm::vec3 d = p.position - e.centre;
-        return glm::dot(d, d);
-    });
+    e.one_point = e.points[hash(number) % shadow_points];
     choose_probes(e);
     return e;
 }
@@ -221,11 +220,13 @@ EmitterPoint emitter_point(const Emitter& emitter, glm::vec2 u) {
 
 std::vector<Emitter> make_emitters(const Scene& scene) {
     std::vector<Emitter> emitters;
+    std::uint32_t number = 0;
     for (std::vector<EmitterTriangle>& triangles : luminaire_triangles(scene)) {
-        Emitter emitter = make_emitter(std::move(triangles));
+        Emitter emitter = make_emitter(std::move(triangles), number++);
         std::vector<std::vector<EmitterTriangle>> pieces = pieces_apart(emitter.triangles);
         if (pieces.size() > 1)
-            for (std::vector<EmitterTriangle>& piece : pieces) emitter.parts.push_back(make_emitter(std::move(piece)));
+            for (std::vector<EmitterTriangle>& piece : pieces)
+                emitter.parts.push_back(make_emitter(std::move(piece), number++));
         emitters.push_back(std::move(emitter));
     }
     return emitters;
@@ -270,17 +271,18 @@ float direct_form_factor(const World& world, const Emitter& emitter, glm::vec3 o
     if (exact && wholly_seen) return static_cast<float>(exact_form_factor(emitter, origin, normal));
 
     VisibleShare share{1, 0};
-    if (!wholly_seen && detail == VisibilityDetail::probes && probes.all > 0) {
-        const double visible = probes.visible / probes.all;
-        share = {visible, probe_penumbra_deviation * std::sqrt(4 * visible * (1 - visible))};
-    } else if (!wholly_seen && emitter.triangles.size() <= most_subdivided_triangles) {
+    const int points = detail == VisibilityDetail::few_points    ? few_points
+                       : detail == VisibilityDetail::some_points ? some_points
+                                                                 : shadow_points;
+    if (!wholly_seen && points == shadow_points && emitter.triangles.size() <= most_subdivided_triangles) {
         share = visible_share(world, emitter, origin, normal, detail, rays);
     } else if (!wholly_seen) {
-        const PointsSeen points = look_at(world, emitter.points, origin, normal);
-        rays += static_cast<std::uint64_t>(points.facing);
-        if (points.all > 0) {
-            const double visible = points.visible / points.all;
-            share = {visible, point_penumbra_deviation * std::sqrt(4 * visible * (1 - visible))};
+        // Not the probes: they lie at the rim, which a lamp's housing hides first.
+        const PointsSeen seen = look_at(world, std::span(emitter.points).first(points), origin, normal);
+        rays += static_cast<std::uint64_t>(seen.facing);
+        if (seen.all > 0) {
+            const double visible = seen.visible / seen.all;
+            share = {visible, penumbra_deviation(points) * std::sqrt(4 * visible * (1 - visible))};
         } else
             share.share = probes.count > 0 ? 1 : 0;
     }

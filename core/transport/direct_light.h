@@ -37,7 +37,8 @@ struct Emitter {
     glm::vec3 centre{0};
     float radius = 0;                   // of a sphere around it
     bool flat = true;                   // all triangles look the same way
-    EmitterPoint middle{};              // the stratified point nearest to the centre
+    EmitterPoint one_point{};           // a stratified one, for one ray: of each luminaire another, for middles are the
+                                        // last that housings hide
     std::vector<EmitterPoint> probes;   // far apart: all seen or all hidden settles V
     std::vector<EmitterPoint> points;   // stratified by area
     std::vector<float> cumulative_area; // one a triangle, ends at `area`
@@ -59,7 +60,7 @@ std::vector<float> guessed_exitances(std::span<const Emitter> emitters);
 EmitterPoint emitter_point(const Emitter& emitter, glm::vec2 u);
 
 // How finely penumbrae are known: the light of one luminaire of many, or on something small, matters less.
-enum class VisibilityDetail { probes, whole_cells, one_cut, two_cuts };
+enum class VisibilityDetail { few_points, some_points, whole_cells, one_cut, two_cuts };
 
 // D for one receiver. `origin` is already off its surface. deviation: the standard deviation of D that the stratified
 // points leave (0 where the formula is exact and the probes agree).

@@ -16,7 +16,8 @@ namespace lueur {
 
 namespace {
 
-constexpr std::uint32_t most_sketched = 32; // luminaires that a first guess asks
+constexpr std::uint32_t most_sketched = 32; // pieces of luminaires that a first guess asks
+constexpr float sketched_exactly = 2;       // radii: closer luminaires are too unlike what one point of them tells
 constexpr float look_share = 0.3f;         // of what a place counts for, where one of many luminaires is only looked at
 constexpr float small_size = 0.25f;        // of the coarse element size: what is smaller counts by its area
 constexpr float long_edge_share = 0.4f;    // of the coarse element size: longer edges are looked at in any case
@@ -31,8 +32,12 @@ DirectTransport::DirectTransport(const World& world, Mesh& mesh, std::vector<Emi
     , emitters_(std::move(emitters))
     , params_(params)
     , samples_(std::move(samples))
-    , edges_(mesh, samples_.count() > 0 ? Room::for_finer_levels : Room::as_far_as_it_goes) {
+    , edges_(mesh, params.room) {
     weight_ = guessed_exitances(emitters_);
+    for (std::uint32_t l = 0; l < emitters_.size(); ++l)
+        for (const Emitter& piece :
+             emitters_[l].parts.empty() ? std::span<const Emitter>(&emitters_[l], 1) : emitters_[l].parts)
+            if (piece.area > 0) pieces_.push_back({&piece, l});
     buried_.assign(mesh_.vertices.size(), 0);
     rows_.resize(mesh_.vertices.size() - sampled_vertices() + samples_.count());
     known_.assign(rows_.size(), 0);
@@ -112,36 +117,41 @@ double DirectTransport::progress() const {
     return refined_ || edges_.edges().empty() ? 1 : double(edge_cursor_) / double(edges_.edges().size());
 }
 
-// A first guess: one ray to each luminaire, or to a few drawn by what they would give without shadows, each for as many
-// as it was drawn among (systematic sampling: all of even light are drawn in turn).
+// A first guess: one ray to each piece of a luminaire, or to a few drawn by what they would give without shadows, each
+// for as many as it was drawn among (systematic sampling: all of even light are drawn in turn).
 DirectRow DirectTransport::sketched_row(std::uint32_t v) const {
     const glm::vec3 origin = origins_[v], normal = mesh_.vertices[v].normal;
     static thread_local std::vector<float> shares;
-    shares.assign(emitters_.size(), 0.0f);
+    shares.assign(pieces_.size(), 0.0f);
     float all = 0;
-    const auto probe = [&](std::uint32_t l) -> const EmitterPoint& {
-        return emitters_[l].probes[hash(v, l) % emitters_[l].probes.size()];
+    const auto target = [&](std::uint32_t p) -> const EmitterPoint& {
+        const std::vector<EmitterPoint>& points = pieces_[p].emitter->points;
+        return points[hash(v, p) % points.size()];
     };
     std::uint32_t shining = 0;
-    for (std::uint32_t l = 0; l < emitters_.size(); ++l) {
-        if (emitters_[l].area <= 0) continue;
-        shares[l] =
-            std::min(1.0f, emitter_kernel(origin, normal, probe(l)) * emitters_[l].area / std::numbers::pi_v<float>);
-        all += weight_[l] * shares[l];
-        shining += shares[l] > 0;
+    for (std::uint32_t p = 0; p < pieces_.size(); ++p) {
+        const Emitter& piece = *pieces_[p].emitter;
+        shares[p] = glm::distance(origin, piece.centre) < sketched_exactly * piece.radius
+                        ? unshadowed_form_factor(piece, origin, normal)
+                        : emitter_kernel(origin, normal, target(p)) * piece.area / std::numbers::pi_v<float>;
+        all += weight_[pieces_[p].luminaire] * shares[p];
+        shining += shares[p] > 0;
     }
     DirectRow row;
     const float step = shining > most_sketched ? all / most_sketched : 0;
     float next = step * unit_float(hash(v));
-    for (std::uint32_t l = 0; l < emitters_.size(); ++l) {
-        if (!(shares[l] > 0)) continue;
+    for (std::uint32_t p = 0; p < pieces_.size(); ++p) {
+        if (!(shares[p] > 0)) continue;
+        const std::uint32_t l = pieces_[p].luminaire;
         float counts = 1;
         if (step > 0) {
             counts = 0;
-            const float light = weight_[l] * shares[l];
+            const float light = weight_[l] * shares[p];
             for (next -= light; next < 0; next += step) counts += step / light;
         }
-        if (counts > 0 && sees(world_, origin, probe(l).position)) row.push_back({l, counts * shares[l], 0});
+        if (!(counts > 0) || !sees(world_, origin, target(p).position)) continue;
+        if (row.empty() || row.back().emitter != l) row.push_back({l, 0, 0});
+        row.back().factor += counts * shares[p];
     }
     return row;
 }
@@ -149,7 +159,7 @@ DirectRow DirectTransport::sketched_row(std::uint32_t v) const {
 bool DirectTransport::sketch(const std::atomic<bool>& cancel) {
     const bool done = run_slice(sketch_cursor_, row_count(), 128, cancel, [&](std::uint32_t first, std::uint32_t last) {
         for (std::uint32_t r = first; r < last; ++r) rows_[r] = sketched_row(vertex_of(r));
-        rays_.fetch_add(std::uint64_t(last - first) * std::min<std::size_t>(most_sketched, emitters_.size()),
+        rays_.fetch_add(std::uint64_t(last - first) * std::min<std::size_t>(most_sketched, pieces_.size()),
                         std::memory_order_relaxed);
     });
     if (done) read_guessed_light();

@@ -26,6 +26,7 @@ struct DirectParams {
     float smallest_edge = 0; // m: shorter edges are not split
     float element_size = 0;  // m: what stands for less than such an element is lit less finely
     std::uint32_t most_vertices = 60000;
+    Room room = Room::as_far_as_it_goes;
 };
 
 // What one emitter gives one place: D, irradiance for unit exitance, and its standard deviation: of the stratified
@@ -49,6 +50,7 @@ public:
     // Then split, level by level, at most until there have been so many. light_vertices() lights the new ones: call it
     // to its end before refine(), and once more after it.
     bool refine(const std::atomic<bool>& cancel, std::uint32_t levels = no_index);
+    bool is_lit() const { return lit_rows_ > 0 || rows_.empty(); } // no longer guessed
     bool refined() const { return refined_ || emitters_.empty(); } // all levels
 
     // The mesh was cut by someone else: its new vertices have what their parents
@@ -122,6 +124,11 @@ private:
     EdgeRefinement edges_; // of this level, and their D:
     std::vector<DirectRow> edge_rows_;
     std::vector<float> weight_; // guessed_exitances
+    struct Piece {              // a luminaire, or one of its parts
+        const Emitter* emitter;
+        std::uint32_t luminaire;
+    };
+    std::vector<Piece> pieces_;
     std::vector<DirectRow> rows_;
     std::vector<std::uint8_t> known_; // of each row: lit when its edge was looked at
     std::vector<float> row_area_;     // m^2 that each row stands for

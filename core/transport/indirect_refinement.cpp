@@ -29,7 +29,7 @@ IndirectRefinement::IndirectRefinement(const World& world, Mesh& mesh, const Dir
     , mesh_(mesh)
     , params_(params)
     , samples_(direct.samples())
-    , edges_(mesh, samples_.count() > 0 ? Room::for_finer_levels : Room::as_far_as_it_goes)
+    , edges_(mesh, params.room)
     , buried_(std::move(buried))
     , distance_(std::move(distance))
     , origins_(ray_origins(mesh, world.epsilon())) {

@@ -23,6 +23,7 @@ struct IndirectParams {
     float smallest_element = 0; // m, longest edge: smaller coarse elements are left alone,
     float smallest_edge = 0;    // and elements of that size are not cut any more
     std::uint32_t most_vertices = 60000;
+    Room room = Room::as_far_as_it_goes;
 };
 
 class IndirectRefinement {

@@ -10,7 +10,7 @@ namespace {
 
 // Of the light that arrives: what counts for less is looked at less closely, so that each errs by about a hundredth of
 // all light where its shadow's edge falls.
-constexpr float two_cuts_from = 0.4f, one_cut_from = 0.2f, whole_cells_from = 0.06f, probes_from = 0.03f;
+constexpr float two_cuts_from = 0.4f, one_cut_from = 0.2f, some_points_from = 0.06f, few_points_from = 0.03f;
 // Where a shadow is refined its vertices are small: they must not be less sure of it than their neighbours, or what
 // bends is the error and is refined further (specks around the gallery's frames).
 constexpr float least_size_share = 0.5f;
@@ -41,21 +41,21 @@ struct Candidate {
 VisibilityDetail detail_of(float counts) {
     if (counts > two_cuts_from) return VisibilityDetail::two_cuts;
     if (counts > one_cut_from) return VisibilityDetail::one_cut;
-    return counts > whole_cells_from ? VisibilityDetail::whole_cells : VisibilityDetail::probes;
+    return counts > some_points_from ? VisibilityDetail::some_points : VisibilityDetail::few_points;
 }
 
-// The middle where it faces the receiver; of a ball or a box a point that does, for it hides its own far side.
+// The one point where it faces the receiver; of a ball or a box a point that does, for it hides its own far side.
 glm::vec3 facing_point(const Emitter& emitter, glm::vec3 origin, glm::vec3 normal) {
-    const EmitterPoint* best = &emitter.middle;
-    float most = emitter_kernel(origin, normal, emitter.middle);
+    const EmitterPoint* best = &emitter.one_point;
+    float most = emitter_kernel(origin, normal, emitter.one_point);
     if (most <= 0)
         for (const EmitterPoint& p : emitter.probes)
             if (const float kernel = emitter_kernel(origin, normal, p); kernel > most) most = kernel, best = &p;
     return best->position;
 }
 
-// Whether their middles are seen.
-void look_at_middles(const World& world, glm::vec3 origin, glm::vec3 normal, std::span<Candidate> candidates) {
+// Whether one point of each is seen.
+void look_at_one_point(const World& world, glm::vec3 origin, glm::vec3 normal, std::span<Candidate> candidates) {
     std::array<glm::vec3, World::packet> targets;
     for (std::size_t first = 0; first < candidates.size(); first += World::packet) {
         const std::span<Candidate> some = candidates.subspan(first, std::min(World::packet, candidates.size() - first));
@@ -83,7 +83,7 @@ void light_by_sample(const World& world, glm::vec3 origin, glm::vec3 normal, std
         while (next < tail_rays && before > all * (float(next) + 0.5f) / tail_rays) drawn[next++] = c;
     }
     while (next < tail_rays) drawn[next++] = tail.back();
-    look_at_middles(world, origin, normal, drawn);
+    look_at_one_point(world, origin, normal, drawn);
     const auto seen = static_cast<float>(std::ranges::count(drawn, true, &Candidate::seen));
     const float share = seen / tail_rays, believed = (seen + 1) / (tail_rays + 2);
     // Variance of the sum of all of them, shared among them as if each erred by itself.
@@ -136,7 +136,7 @@ std::uint64_t direct_form_factors(const World& world, std::span<const Emitter> e
             rays += tail_rays;
             shining = shining.first(end);
         }
-        look_at_middles(world, origin, normal, shining);
+        look_at_one_point(world, origin, normal, shining);
         rays += shining.size();
         visible = shadow_share * all;
         for (const Candidate& c : shining) visible += c.seen ? c.light : 0;
@@ -144,7 +144,7 @@ std::uint64_t direct_form_factors(const World& world, std::span<const Emitter> e
     for (const Candidate& c : shining) {
         const float counts = std::max(size_share, least_size_share) * c.light / visible;
         float f = 0, deviation = 0;
-        if (counts < probes_from && c.light < one_ray_share * visible && candidates.size() > 1) {
+        if (counts < few_points_from && c.light < one_ray_share * visible && candidates.size() > 1) {
             f = c.seen ? unshadowed_form_factor(*c.emitter, origin, normal) : 0;
             deviation = one_ray_deviation * f;
         } else

@@ -2,7 +2,7 @@
 // hundredth of the light there is not worth what one that gives half of it is.
 //
 // Shares are of geometry alone (guessed_exitances): an edit of a lamp traces nothing. One ray
-// to the middle of each tells who is seen at all; of those that are left, the larger their share of the light that
+// to a point of each tells who is seen at all; of those that are left, the larger their share of the light that
 // arrives, the finer their shadow is known. The faintest, together a twentieth, are known by the luminaires of a small
 // sample drawn among them by share (Shirley, Wang & Zimmerman 1996, "Monte Carlo techniques for direct lighting
 // calculations"). What any of this leaves is stated in the deviations.

@@ -110,3 +110,50 @@ TEST(FirstPictures, AnEditWhileTheMeshIsMadeStartsAfresh) {
     EXPECT_EQ(edited.field()->irradiance_xyz, fresh.field()->irradiance_xyz);
     EXPECT_EQ(edited.status().rays, fresh.status().rays);
 }
+
+// Where direct light takes long, of 40 lamps, indirect light is solved for a guess of it first. An edit and another
+// solver come in between, and what is found then is the same light.
+TEST(FirstPictures, ComeBeforeTheDirectLightOfManyLamps) {
+    test::SceneBuilder b;
+    const MaterialIndex grey = b.material("grey", 0.5);
+    b.room("room", {grey, grey, grey, grey, grey, grey}, glm::vec3(0), {4, 3, 4});
+    for (int k = 0; k < 40; ++k) {
+        const glm::vec3 at(0.5f * float(k % 8) + 0.25f, 2.9f, 0.75f * float(k / 8) + 0.4f);
+        const std::string name = "lamp " + std::to_string(k);
+        b.light(name, {b.polygon(name, grey, {at, at + glm::vec3(0.1f, 0, 0), at + glm::vec3(0.1f, 0, 0.1f)})},
+                PowerUnit::lumen, 100);
+    }
+    Scene scene = b.build();
+    scene.solve.element_size = 0.16;
+    const auto is_early = [](const Solution::State& s) { return s.phase == SolvePhase::light && !s.passes.empty(); };
+    const auto is_lit = [](const Solution::State& s) { return s.phase == SolvePhase::refine; };
+    const auto step_until = [](Solution& solution, const auto& there) {
+        while (!there(solution.state()) && solution.step(test::never)) {
+        }
+        ASSERT_TRUE(there(solution.state()));
+    };
+    Solution fresh(std::make_shared<const Scene>(scene));
+    step_until(fresh, is_early);
+    const double early = mean_illuminance(*fresh.field());
+    EXPECT_FALSE(fresh.state().direct->is_lit());
+    EXPECT_EQ(fresh.field()->scene_error, 1) << "nothing is known of how wrong a guess is";
+    step_until(fresh, is_lit);
+    const double lit = mean_illuminance(*fresh.field());
+    EXPECT_NEAR(early / lit, 1, 0.03);
+
+    Scene other = scene;
+    other.luminaires[7].dimmer = 0;
+    other.materials[0].reflectance = 0.3;
+    Solution edited(std::make_shared<const Scene>(other));
+    step_until(edited, is_early);
+    edited.update(std::make_shared<const Scene>(scene), SolveFrom::reflectance);
+    EXPECT_EQ(edited.state().phase, SolvePhase::solve) << "the picture that is there follows at once";
+    step_until(edited, is_early);
+    other = scene;
+    other.solve.solver = SolverKind::shooting;
+    edited.update(std::make_shared<const Scene>(other), SolveFrom::black);
+    EXPECT_EQ(edited.state().phase, SolvePhase::light) << "shooting needs the direct light";
+    edited.update(std::make_shared<const Scene>(scene), SolveFrom::black);
+    step_until(edited, is_lit);
+    EXPECT_NEAR(mean_illuminance(*edited.field()) / lit, 1, 2e-3);
+}

@@ -1,4 +1,6 @@
 // Sums of what each luminaire does alone: the same light as a solve of all together.
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "core/solve/light_bases.h"
@@ -101,4 +103,36 @@ TEST(LightBases, KeepWithinTheirMemoryAndTheLatestEditFirst) {
     EXPECT_FALSE(bases.sum({dark, two, dark, one, dark}));
     bases.give_up(1);
     EXPECT_EQ(bases.next(), 3u);
+}
+
+// A slider that is dragged: what has changed is added to the latest sum, and no rounding is left of what was bright.
+TEST(LightBases, DraggingASliderEndsWhereItsPlaceLeads) {
+    constexpr std::size_t luminaires = 6;
+    const auto filled_with = [](float value) {
+        LightSolution b{ChannelField(100, 8), ChannelField(101, 8), ChannelField(100, 8)};
+        std::ranges::fill(b.gathered.values, value);
+        std::ranges::fill(b.arriving.values, 2 * value);
+        return b;
+    };
+    LightBases dragged, fresh;
+    for (LightBases* bases : {&dragged, &fresh}) {
+        bases->keep_for({100, 8, luminaires}, {{0.5}});
+        for (std::size_t l = 0; l < luminaires; ++l) bases->add(l, filled_with(0.1f * float(l + 1)));
+    }
+    Exitances exitance(luminaires, std::vector<double>(8, 1));
+    ASSERT_TRUE(dragged.sum(exitance));
+    for (int step = 0; step < 300; ++step) { // one after the other down to nothing, and on again but the last ones
+        const std::size_t l = std::size_t(step / 50);
+        const double place = 1 - step % 50 / 49.0;
+        std::ranges::fill(exitance[l], step % 50 == 49 && l < 4 ? 1e-6 : 1e4 * place);
+        const auto sum = dragged.sum(exitance);
+        ASSERT_TRUE(sum);
+        if (step % 7 != 0 && step != 299) continue;
+        LightBases other = fresh;
+        const auto expected = other.sum(exitance);
+        ASSERT_NEAR(sum->gathered[99][7] / expected->gathered[99][7], 1, 1e-4) << step;
+        ASSERT_NEAR(sum->arriving[99][7] / expected->arriving[99][7], 1, 1e-4) << step;
+    }
+    EXPECT_GT(dragged.sum(exitance)->gathered[0][0], 0);
+    EXPECT_LT(dragged.sum(exitance)->gathered[0][0], 1e-5);
 }
