@@ -98,11 +98,15 @@ double luminous(const State& s, const float* channels) {
 double mean_luminous_reflectance(const State& s) {
     double mean_rho = 0, area = 0, white = 0;
     for (const Xyz& w : s.wavelengths->xyz_weight) white += w.y;
+    std::vector<double> of_material;
+    for (const std::vector<double>& rho : s.material_rho) {
+        of_material.push_back(0);
+        for (std::size_t c = 0; c < s.wavelengths->xyz_weight.size(); ++c)
+            of_material.back() += s.wavelengths->xyz_weight[c].y * rho[c] / white;
+    }
     for (std::uint32_t v = 0; v < s.mesh.coarse_vertex_count; ++v) {
-        const auto& rho = s.material_rho[s.material_of(s.mesh.vertices[v].surface)];
-        double y = 0;
-        for (std::size_t c = 0; c < s.wavelengths->xyz_weight.size(); ++c) y += s.wavelengths->xyz_weight[c].y * rho[c];
-        mean_rho += s.coarse_area[v] * y / white, area += s.coarse_area[v];
+        mean_rho += s.coarse_area[v] * of_material[s.material_of(s.mesh.vertices[v].surface)];
+        area += s.coarse_area[v];
     }
     return area > 0 ? mean_rho / area : 0;
 }

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <tbb/parallel_for.h>
+
 #include "core/solve/gathering_sources.h"
 #include "core/solve/least_absorbed.h"
 #include "core/solve/solution_steps.h"
@@ -32,24 +34,32 @@ void take_stock_of_gathering(State& s) {
     ScalarRadiosity radiosity{std::vector<float>(receivers), std::vector<float>(fine_vertices_of_rays(s))};
     for (std::uint32_t i = 0; i < receivers; ++i)
         radiosity.indirect[i] = static_cast<float>(luminous(s, s.system.radiosity()[i]));
-    // Direct irradiance and its reflection, the luminous part of both.
-    std::vector<float> direct(receivers, 0); // that of the rays is added below
-    {
-        ChannelField h(static_cast<std::uint32_t>(s.mesh.vertices.size()), s.channels());
-        read_direct(s, s.luminaire_exitance, h);
-        std::vector<std::vector<float>> reflected; // of each paint: what a channel's irradiance gives
-        for (const std::vector<double>& rho : s.material_rho) {
-            reflected.emplace_back();
+    // Direct irradiance and its reflection on each paint, the luminous part of both: of what each luminaire sends.
+    std::vector<double> sent;
+    std::vector<std::vector<double>> reflected(s.material_rho.size());
+    for (const std::vector<double>& exitance : s.luminaire_exitance) {
+        sent.push_back(0);
+        for (std::size_t c = 0; c < s.wavelengths->xyz_weight.size(); ++c)
+            sent.back() += s.wavelengths->xyz_weight[c].y * exitance[c];
+        for (std::size_t m = 0; m < reflected.size(); ++m) {
+            reflected[m].push_back(0);
             for (std::size_t c = 0; c < s.wavelengths->xyz_weight.size(); ++c)
-                reflected.back().push_back(static_cast<float>(s.wavelengths->xyz_weight[c].y * rho[c]));
-        }
-        for (std::uint32_t i = 0; i < receivers; ++i)
-            direct[i] = static_cast<float>(luminous(s, h[s.receivers.vertex[i]]));
-        for (std::uint32_t v = 0; v < radiosity.direct.size(); ++v) {
-            const std::vector<float>& on_paint = reflected[s.material_of(s.mesh.vertices[v].surface)];
-            for (std::size_t c = 0; c < on_paint.size(); ++c) radiosity.direct[v] += on_paint[c] * h[v][c];
+                reflected[m].back() += s.wavelengths->xyz_weight[c].y * exitance[c] * s.material_rho[m][c];
         }
     }
+    const auto arriving = [&](std::uint32_t v, const std::vector<double>& of_luminaires) {
+        double sum = 0;
+        s.direct->each_share(v, [&](const DirectShare& share, float part) {
+            sum += double(part) * double(share.factor) * of_luminaires[share.emitter];
+        });
+        return static_cast<float>(sum);
+    };
+    std::vector<float> direct(receivers, 0); // that of the rays is added below
+    tbb::parallel_for(std::uint32_t(0), receivers,
+                      [&](std::uint32_t i) { direct[i] = arriving(s.receivers.vertex[i], sent); });
+    tbb::parallel_for(std::uint32_t(0), static_cast<std::uint32_t>(radiosity.direct.size()), [&](std::uint32_t v) {
+        radiosity.direct[v] = arriving(v, reflected[s.material_of(s.mesh.vertices[v].surface)]);
+    });
 
     const SmoothedReceivers smoothed = smoothed_receivers(s);
     s.indirect_deviation = smoothed.of(half_differences(s.passes, radiosity));
