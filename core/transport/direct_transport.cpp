@@ -120,7 +120,7 @@ DirectRow DirectTransport::sketched_row(std::uint32_t v) const {
     shares.assign(emitters_.size(), 0.0f);
     float all = 0;
     const auto probe = [&](std::uint32_t l) -> const EmitterPoint& {
-        return emitters_[l].probes[hash(v, l) % emitters_[l].probes.size()];
+        return emitters_[l].points[hash(v, l) % emitters_[l].points.size()];
     };
     std::uint32_t shining = 0;
     for (std::uint32_t l = 0; l < emitters_.size(); ++l) {
