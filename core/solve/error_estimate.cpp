@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/solve/error_fit.h"
+#include "core/solve/error_missing.h"
 #include "core/solve/relative_error.h"
 #include "core/solve/solution_steps.h"
 #include "core/solve/traced_field.h"
@@ -15,7 +16,8 @@ namespace {
 
 using State = Solution::State;
 
-constexpr double interval_of_guesses = 6; // standard deviations: what is reflected on is not there yet
+constexpr double interval_of_guesses = 8; // standard deviations: what is reflected on is not there yet
+constexpr float guessed_share = 0.7f;     // of usual light, where there may be less: drawers, the backs of shelves
 
 void set_relative_error(const ErrorLight& light, Field& field) {
     field.relative_error.assign(field.error.size(), 0);
@@ -54,7 +56,7 @@ void know_nothing(const State& s, const ErrorMesh& mesh, const ErrorLight& light
     const auto usual = static_cast<float>(usual_light(light, mesh, looked_at));
     for (std::size_t v = 0; v < field.error.size(); ++v)
         field.error[v] =
-            v < looked_at ? std::max(light.total[v], usual) : 2 * usual; // direct light and its reflections
+            v < looked_at ? light.total[v] + guessed_share * usual : 2 * usual; // direct light and its reflections
     set_relative_error(light, field);
     field.interval_factor = interval_of_guesses;
     field.scene_error = 1;
@@ -105,33 +107,24 @@ void estimate_error(const State& s, Field& field) {
     const std::vector<Residual> probes = residuals(s, light, model);
 
     const double rho = std::min(0.999, mean_luminous_reflectance(s) * light.caught);
-    double missing = missing_light(s, mesh, light, probes, rho);
-    // Probes read the field they judge: what shots have lost between walls a millimetre apart is not seen from within.
-    if (s.solver() == SolverKind::shooting && s.solving)
-        missing = std::hypot(missing, light.mean * s.shooting.lost_share());
-    // It is missing in proportion to what is there already, as far as anything is.
-    std::vector<float> missing_at(count);
-    const double mean_indirect = std::max(0.0, light.mean_indirect);
-    for (std::size_t v = 0; v < count && missing > 0; ++v)
-        missing_at[v] = static_cast<float>(missing * (std::max(0.0, double(light.indirect[v])) + missing) /
-                                           (mean_indirect + missing));
-    const ErrorFactors factors = fit_model(s, mesh, light, model, probes, missing_at, rho);
+    const std::vector<float> missing = missing_light(s, mesh, light, probes, rho);
+    const ErrorFactors factors = fit_model(s, mesh, light, model, probes, missing, rho);
 
     const WavelengthError& channels = s.choice.illuminance_error;
     for (std::size_t v = 0; v < count; ++v) {
         const double wavelengths =
             std::abs(channels.direct * light.direct[v]) + std::abs(channels.reflected * light.indirect[v]);
-        const double variance = factors.at(model, v) + double(missing_at[v]) * missing_at[v] +
-                                wavelengths * wavelengths + double(light.unlit[v]) * light.unlit[v];
+        const double variance = factors.at(model, v) + double(missing[v]) * missing[v] + wavelengths * wavelengths +
+                                double(light.unlit[v]) * light.unlit[v];
         field.error[v] = static_cast<float>(std::sqrt(variance));
         field.interpolation_error[v] = static_cast<float>(std::sqrt(factors.between * model.between[v]));
     }
     std::vector<float> area = mesh.area;
     std::vector<std::uint8_t> left_out = mesh.buried;
     for (std::size_t v = 0; v < count; ++v) {
-        if (!mesh.rim[v]) continue;
+        if (!mesh.at_rim(v)) continue;
         field.error[v] = std::max(field.error[v], static_cast<float>(std::sqrt(factors.rim)) * light.at_rim(v));
-        area[v] *= 0.5f;
+        area[v] = mesh.rim_area[v];
         left_out[v] = 0;
     }
     set_relative_error(light, field);

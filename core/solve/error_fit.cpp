@@ -119,34 +119,6 @@ std::vector<Residual> residuals(const State& s, const ErrorLight& light, const E
     return list;
 }
 
-double missing_light(const State& s, const ErrorMesh& mesh, const ErrorLight& light,
-                     const std::vector<Residual>& probes, double rho) {
-    if (!probes.empty()) {
-        // What a mean of as many probes may be by chance is no sign of anything missing.
-        const auto mean_square = [&](double Residual::*part) {
-            double mean = 0, area = 0, noise = 0;
-            for (const Residual& r : probes) mean += r.point->area * r.*part, area += r.point->area;
-            mean /= area;
-            for (const Residual& r : probes) {
-                const double off = r.point->area / area * (r.*part - mean);
-                noise += off * off;
-            }
-            return std::max(0.0, mean * mean - noise);
-        };
-        return std::sqrt(mean_square(&Residual::indirect) + mean_square(&Residual::unsent)) / (1 - rho);
-    }
-    double flux = 0;
-    const std::vector<float> unshot = s.solving ? s.unshot_at_vertices() : std::vector<float>{};
-    for (std::uint32_t v = 0; v < light.total.size(); ++v) {
-        if (mesh.buried[v]) continue;
-        if (!s.solving)
-            flux += double(mesh.area[v]) * light.reflected[v];
-        else if (v < unshot.size())
-            flux += double(unshot.size() == s.indirect_area.size() ? s.indirect_area[v] : s.coarse_area[v]) * unshot[v];
-    }
-    return mesh.seen_area > 0 ? light.caught * flux / mesh.seen_area / (1 - rho) : 0;
-}
-
 ErrorFactors fit_model(const State& s, const ErrorMesh& mesh, const ErrorLight& light, const ErrorModel& model,
                        const std::vector<Residual>& probes, const std::vector<float>& missing_at, double rho) {
     // What shadow rays and gather rays err by is known well, the rest is a guess.
@@ -168,7 +140,7 @@ ErrorFactors fit_model(const State& s, const ErrorMesh& mesh, const ErrorLight& 
     const auto read_direct = [&](const Residual& r) { return factors.read * r.model_read_direct; };
     const auto read_indirect = [&](const Residual& r) { return factors.read * r.model_read_indirect; };
     // Each probe in its own terms, the wildest cut: what a few slats before a window lack must not be believed of all.
-    constexpr double wildest = 25, most_at_rim = 4; // all of what is shown
+    constexpr double wildest = 25, most_at_rim = 9; // all of what is shown
     for (const Residual& r : probes)
         if (const double other = r.model_direct + read_direct(r) + r.direct_noise;
             !r.point->between && r.model_hidden > 0)
@@ -202,7 +174,7 @@ ErrorFactors fit_model(const State& s, const ErrorMesh& mesh, const ErrorLight& 
         for (int k = 0; k < 3; ++k) {
             const std::uint32_t v = r.point->vertices[k];
             const double weight = double(r.point->weights[k]);
-            if (mesh.rim[v])
+            if (mesh.at_rim(v))
                 at_rim += weight * double(light.at_rim(v)) * light.at_rim(v);
             else
                 at_vertices += weight * factors.at(model, v);

@@ -22,11 +22,6 @@ double read(std::span<const float> values, const ErrorProbes::Point& p);
 // None while there are no complete probes.
 std::vector<Residual> residuals(const Solution::State& state, const ErrorLight& light, const ErrorModel& model);
 
-// Light that is missing everywhere, lx: the mean residual is one reflection of it, all of it 1 / (1 - rho) times that.
-// What direct light lacks is not reflected either; but at the bottom of a lamp's housing it would have stayed there.
-double missing_light(const Solution::State& state, const ErrorMesh& mesh, const ErrorLight& light,
-                     const std::vector<Residual>& probes, double rho);
-
 // What variances of the model are to be multiplied with.
 struct ErrorFactors {
     double direct = 1, hidden = 0, rays = 1, bent = 1, between = 1, read = 0;

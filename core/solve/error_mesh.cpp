@@ -111,10 +111,16 @@ ErrorMesh make_error_mesh(const Mesh& mesh, std::uint32_t level, std::vector<std
     made.level = level;
     made.buried = std::move(buried);
     made.area = vertex_areas(mesh);
-    made.rim.assign(made.buried.size(), 0);
-    for (const glm::uvec3& e : mesh.elements)
-        if (const int inside = made.buried[e.x] + made.buried[e.y] + made.buried[e.z]; inside == 1 || inside == 2)
-            for (int k = 0; k < 3; ++k) made.rim[e[k]] = made.buried[e[k]];
+    made.rim_area.assign(made.buried.size(), 0);
+    for (const glm::uvec3& e : mesh.elements) {
+        if (const int inside = made.buried[e.x] + made.buried[e.y] + made.buried[e.z]; inside == 0 || inside == 3)
+            continue;
+        const glm::vec3 a = mesh.vertices[e.x].position, b = mesh.vertices[e.y].position,
+                        c = mesh.vertices[e.z].position;
+        const float of_vertex = glm::length(glm::cross(b - a, c - a)) / 6;
+        for (int k = 0; k < 3; ++k)
+            if (made.buried[e[k]]) made.rim_area[e[k]] += 0.5f * of_vertex;
+    }
     for (std::size_t v = 0; v < made.area.size(); ++v)
         if (!made.buried[v]) made.seen_area += made.area[v];
     if (!with_bends) return made;

@@ -38,12 +38,14 @@ struct ErrorMesh {
     std::uint32_t level = 0; // vertices at which indirect light is solved, the first ones
     std::vector<std::uint8_t> buried;
 
-    std::vector<float> area;       // m^2 of each vertex
-    std::vector<std::uint8_t> rim; // buried vertices that share an element with one that is not
-    double seen_area = 0;          // of those that are not buried
+    std::vector<float> area; // m^2 of each vertex
+    // Of buried vertices that share elements with others: half of what they have of these, as the rest is in the solid.
+    std::vector<float> rim_area;
+    double seen_area = 0; // of those that are not buried
     Bends fine, coarse;
     std::vector<glm::uvec3> coarse_elements;
 
+    bool at_rim(std::size_t v) const { return rim_area[v] > 0; }
     bool is_of(const Mesh& mesh, std::uint32_t level_now, const std::vector<std::uint8_t>& buried_now) const {
         return element_count == mesh.elements.size() && level == level_now && buried == buried_now;
     }

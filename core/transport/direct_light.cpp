@@ -113,19 +113,27 @@ std::vector<std::vector<EmitterTriangle>> luminaire_triangles(const Scene& scene
     return triangles;
 }
 
-// Greedily the farthest from those chosen, of the stratified points, first the one farthest from the centre.
+// Greedily the farthest from those chosen, of the stratified points and the corners, first the one farthest from the
+// centre: the last that is seen of a lamp in a housing is a corner of it.
 void choose_probes(Emitter& emitter) {
-    std::vector<float> distance(emitter.points.size(), 1e30f);
+    std::vector<EmitterPoint> candidates = emitter.points;
+    for (const EmitterTriangle& t : emitter.triangles)
+        for (int k = 0; k < 3; ++k) {
+            glm::vec3 weights(0);
+            weights[k] = 1;
+            candidates.push_back({inside_emitter(t, weights), t.normal});
+        }
+    std::vector<float> distance(candidates.size(), 1e30f);
     glm::vec3 last = emitter.centre;
-    for (int k = 0; k < probe_points && k < static_cast<int>(emitter.points.size()); ++k) {
+    for (int k = 0; k < probe_points; ++k) {
         std::size_t best = 0;
-        for (std::size_t p = 0; p < emitter.points.size(); ++p) {
-            const glm::vec3 d = emitter.points[p].position - last;
+        for (std::size_t p = 0; p < candidates.size(); ++p) {
+            const glm::vec3 d = candidates[p].position - last;
             distance[p] = k == 1 ? glm::dot(d, d) : std::min(distance[p], glm::dot(d, d));
             if (distance[p] > distance[best]) best = p;
         }
-        last = emitter.points[best].position;
-        emitter.probes.push_back(emitter.points[best]);
+        last = candidates[best].position;
+        emitter.probes.push_back(candidates[best]);
     }
 }
 
@@ -195,6 +203,13 @@ std::vector<std::vector<EmitterTriangle>> pieces_apart(std::span<const EmitterTr
 }
 
 } // namespace
+
+glm::vec3 inside_emitter(const EmitterTriangle& triangle, glm::vec3 weights) {
+    constexpr float rim = 0.0067f; // weight
+    weights = glm::max(weights, rim);
+    weights /= weights.x + weights.y + weights.z;
+    return weights.x * triangle.corners[0] + weights.y * triangle.corners[1] + weights.z * triangle.corners[2];
+}
 
 float emitter_kernel(glm::vec3 origin, glm::vec3 normal, const EmitterPoint& p) {
     const glm::vec3 d = p.position - origin;

@@ -44,6 +44,9 @@ struct Emitter {
     std::vector<float> cumulative_area; // one a triangle, ends at `area`
 };
 
+// The point of a triangle with these weights, but not quite at its rim, which a frame may hide.
+glm::vec3 inside_emitter(const EmitterTriangle& triangle, glm::vec3 weights);
+
 // cos cos / r^2 from a receiver to a point of an emitter; 0 when one is behind the other.
 float emitter_kernel(glm::vec3 origin, glm::vec3 normal, const EmitterPoint& point);
 // Whether nothing is between a receiver and a point of an emitter.

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int lattice = 16;      // steps along an edge of a triangle: cells after the last cut
 constexpr int fewest_cells = 32; // of an emitter, before the first cut
-constexpr float inside = 0.98f;  // lattices end a little before the rim, which its frame may hide
+constexpr float turn = 0.5f;     // of the lattice, in steps of its finest cells from end to end
 constexpr double mixed_cell_deviation =
     0.25; // of the share of a cell that is cut by a shadow's edge, known by 3 corners
 
@@ -83,13 +83,20 @@ public:
 private:
     enum Known : std::uint8_t { hidden, seen, wanted, unknown };
 
-    glm::vec3 at(glm::vec2 place) const {
-        const glm::vec2 b = (place - lattice / 3.0f) * inside / float(lattice) + 1 / 3.0f;
-        const auto& p = triangle_.corners;
-        return p[0] + b.x * (p[1] - p[0]) + b.y * (p[2] - p[0]);
+    // Turned a little: of an edge that runs as the lattice does (all of a lamp in a housing do) one point after the
+    // other falls into the shadow, not a row at once.
+    glm::vec3 looked_at(Place place) const {
+        const glm::vec2 from_middle = glm::vec2(place) / float(lattice) - 1 / 3.0f;
+        glm::vec2 at = glm::vec2(place) + turn * float(finest_) * glm::vec2(-from_middle.y, from_middle.x);
+        at = glm::abs(at); // what was turned out is folded in
+        if (const float beyond = at.x + at.y - lattice; beyond > 0) at -= beyond;
+        return inside_emitter(triangle_, {1 - (at.x + at.y) / lattice, at.x / lattice, at.y / lattice});
     }
     double kernel_at(glm::vec2 place) const {
-        return double(emitter_kernel(origin_, normal_, {at(place), triangle_.normal}));
+        const glm::vec2 b = place / float(lattice);
+        const auto& p = triangle_.corners;
+        const glm::vec3 at = p[0] + b.x * (p[1] - p[0]) + b.y * (p[2] - p[0]);
+        return double(emitter_kernel(origin_, normal_, {at, triangle_.normal}));
     }
     std::uint8_t& known(Place place) { return known_[static_cast<std::size_t>(place.y * (lattice + 1) + place.x)]; }
     bool is_seen(Place place) { return known(place) == seen; }
@@ -97,7 +104,7 @@ private:
     // Below the receiver's horizon nothing is seen, and no ray is needed.
     void want(Place place) {
         if (known(place) != unknown) return;
-        const glm::vec3 target = at(glm::vec2(place));
+        const glm::vec3 target = looked_at(place);
         known(place) = hidden;
         if (glm::dot(target - origin_, normal_) <= 0) return;
         known(place) = wanted;

@@ -8,8 +8,12 @@ namespace lueur {
 
 namespace {
 
-// Object, place, look, buried.
-using Key = std::array<std::int64_t, 8>;
+// Of the cell, along the look. The inner walls of a tube look as the outer ones of its other side do and see another
+// light, a hand's breadth away.
+constexpr float depth_share = 0.25f;
+
+// Object, place, look, depth along it, buried.
+using Key = std::array<std::int64_t, 9>;
 struct KeyHash {
     std::size_t operator()(const Key& key) const {
         std::uint64_t hash = 0x9e3779b97f4a7c15ull;
@@ -37,8 +41,10 @@ Receivers make_receivers(const Scene& scene, const Mesh& mesh, const std::vector
         const MeshVertex& vertex = mesh.vertices[v];
         const glm::ivec3 place(glm::floor(vertex.position / cell));
         const glm::ivec3 look(glm::round(2.0f * vertex.normal));
+        const auto depth = static_cast<std::int64_t>(
+            std::floor(glm::dot(vertex.position, 0.5f * glm::vec3(look)) / (depth_share * cell)));
         const auto object = static_cast<std::uint32_t>(at(scene.geometry->surfaces[vertex.surface].object));
-        const Key key{object, place.x, place.y, place.z, look.x, look.y, look.z, buried[v]};
+        const Key key{object, place.x, place.y, place.z, look.x, look.y, look.z, depth, buried[v]};
         const auto [found, fresh] = known.try_emplace(key, static_cast<std::uint32_t>(clusters.size()));
         if (fresh) clusters.push_back({});
         clusters[found->second].sum += vertex.position;

@@ -21,7 +21,7 @@ struct Receivers {
 };
 
 // cell: edge of the cubes, m, in which vertices of one object and side with normals within about 30 degrees are put
-// together; buried and free vertices never are.
+// together, if they lie about as deep; buried and free vertices never are.
 Receivers make_receivers(const Scene& scene, const Mesh& mesh, const std::vector<std::uint8_t>& buried, float cell);
 
 // One a sample (light_samples.h): rays end at the group that a vertex is in. buried: of the coarse vertices.

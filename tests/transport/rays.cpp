@@ -173,6 +173,39 @@ TEST(GatherRows, KeptHitsEndWhereTracedOnesDo) {
     EXPECT_EQ(kept.fine_ends, fresh.fine_ends);
 }
 
+// Both walls of a tube on opposite sides look the same way, a hand's breadth apart: those inside, beside the lamp, must
+// not gather for those outside.
+TEST(Receivers, InsideAndOutsideOfATubeAreApart) {
+    constexpr float outside = 0.05f, inside = 0.041f, cell = 0.16f; // m: a spot's housing in the gallery
+    for (int k = 0; k < 8; ++k) {
+        const glm::vec3 at(0.02f * float(k), 0, 0.013f * float(k));
+        test::SceneBuilder b;
+        const MaterialIndex metal = b.material("metal", 0.03);
+        b.block("housing", metal, at - glm::vec3(outside, 0, outside), at + glm::vec3(outside, 0.19f, outside));
+        const std::array<glm::vec2, 4> rim{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
+        for (std::size_t side = 0; side < 4; ++side) {
+            const glm::vec2 p = inside * rim[side], q = inside * rim[(side + 1) % 4];
+            const auto corner = [&](glm::vec2 c, float y) { return at + glm::vec3(c.x, y, c.y); };
+            b.polygon("housing", metal, {corner(p, 0), corner(q, 0), corner(q, 0.075f), corner(p, 0.075f)});
+        }
+        const Scene scene = b.build();
+        const Mesh mesh = make_mesh(scene, {cell / 0.3});
+        const Receivers receivers =
+            make_receivers(scene, mesh, std::vector<std::uint8_t>(mesh.coarse_vertex_count, 0), cell);
+        std::vector<int> who(receivers.count(), 0);
+        int within = 0;
+        for (std::uint32_t v = 0; v < mesh.coarse_vertex_count; ++v) {
+            const glm::vec3 d = glm::abs(mesh.vertices[v].position - at);
+            const bool is_within = std::max(d.x, d.z) < 0.5f * (inside + outside);
+            who[receivers.of_vertex[v]] |= is_within ? 1 : 2;
+            within += is_within;
+        }
+        EXPECT_GT(within, 8);
+        EXPECT_EQ(std::ranges::count(who, 3), 0) << k;
+        EXPECT_LT(receivers.count(), mesh.coarse_vertex_count) << "neighbours still share";
+    }
+}
+
 // The rays that tell who is buried are rays of the first pass.
 TEST(GatherRows, BurialRaysAreTheFirstOnes) {
     const Scene scene = test::furnace(0.5);

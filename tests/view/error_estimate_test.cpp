@@ -136,6 +136,47 @@ TEST(ErrorEstimate, SaysWhatIsMissingBeforeTheFirstBounce) {
     EXPECT_LT(verdict.ratio(), 2);
 }
 
+// Before the first reflection is solved a cupboard that is open by a slit lacks less light than the room does: the rays
+// that told who is buried have seen how dark it is in there.
+TEST(ErrorEstimate, LessIsMissingWhereItIsDark) {
+    test::SceneBuilder b;
+    const MaterialIndex white = b.material("white", 0.7), board = b.material("board", 0.4, true);
+    b.lit_room("room", white, glm::vec3(0), glm::vec3(4, 2.5f, 4), 0.4f, 3000);
+    b.room("cupboard", test::all(board), {0.3f, 0.3f, 0.3f}, {1.1f, 1.1f, 0.9f}, 5);
+    b.polygon("door", board, {{0.3f, 0.3f, 0.9f}, {1.05f, 0.3f, 0.9f}, {1.05f, 1.1f, 0.9f}, {0.3f, 1.1f, 0.9f}});
+    Scene scene = b.build();
+    scene.solve.element_size = 0.3;
+    Solution solution(std::make_shared<const Scene>(scene));
+    while (solution.state().phase != SolvePhase::transport) solution.step(test::never);
+    const Solution::State& s = solution.state();
+    ASSERT_FALSE(s.solving);
+    const auto field = solution.field();
+    const PathLights lights = make_path_lights(s);
+    double truth = 0, stated = 0, in_room = 0;
+    int inside = 0;
+    for (std::uint32_t v = 0; v < s.mesh.coarse_vertex_count; ++v) {
+        const glm::vec3 p = s.mesh.vertices[v].position, n = s.mesh.vertices[v].normal;
+        const glm::vec3 in = p + 0.1f * n;
+        const bool within = in.x > 0.3f && in.x < 1 && in.y > 0.3f && in.y < 1.1f && in.z > 0.3f && in.z < 0.9f;
+        if (!within) {
+            in_room = std::max(in_room, double(field->error[v]));
+            continue;
+        }
+        const PathEstimate e = trace_irradiance(s, lights, s.origins[v], n, 1024, v, test::never);
+        const double off = double(field->irradiance_xyz[v].y) - e.illuminance;
+        truth += off * off - e.standard_error * e.standard_error;
+        stated += double(field->error[v]) * field->error[v];
+        ++inside;
+    }
+    truth = std::sqrt(truth / inside), stated = std::sqrt(stated / inside);
+    printf("%d vertices within: %.2f lx are missing, %.2f stated, in the room up to %.0f\n", inside, truth, stated,
+           in_room);
+    EXPECT_GT(inside, 20);
+    EXPECT_GT(truth / stated, 0.5);
+    EXPECT_LT(truth / stated, 2);
+    EXPECT_LT(stated, 0.3 * in_room);
+}
+
 // Four samples after Meyer under a fluorescent lamp: the light itself is wrong by several per cent, and it is said.
 TEST(ErrorEstimate, CountsTheWavelengths) {
     Scene scene = test::small_room();
