@@ -151,7 +151,9 @@ TEST(Hierarchical, LectureFormLosesLittleInTheFurnace) {
 // of a round ends where the same scene opened afresh does.
 TEST(Hierarchical, StepsThatAreCutShortChangeNothing) {
     const Scene scene = hierarchical(test::small_room(), RefinementOracle::error, 0, 0.3);
-    const Solution whole = test::solved(scene);
+    Solution whole(std::make_shared<const Scene>(scene));
+    std::uint32_t steps = 0;
+    while (whole.step(test::never)) ++steps;
     Solution cut(std::make_shared<const Scene>(scene));
     std::atomic<bool> cancel{false}, over{false};
     std::thread impatient([&] {
@@ -170,8 +172,6 @@ TEST(Hierarchical, StepsThatAreCutShortChangeNothing) {
     auto dimmed = std::make_shared<Scene>(scene);
     dimmed->luminaires[0].dimmer = 0.25;
     const Solution fresh = test::solved(*dimmed);
-    std::uint32_t steps = 0;
-    for (Solution all(std::make_shared<const Scene>(scene)); all.step(test::never);) ++steps;
     for (const double share : {0.55, 0.9}) {
         Solution edited(std::make_shared<const Scene>(scene));
         for (std::uint32_t k = 0; k < share * steps; ++k) edited.step(test::never);

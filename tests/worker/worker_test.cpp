@@ -27,7 +27,7 @@ constexpr int rounds = 4, edits_a_round = 40;
 
 Scene quick_room() {
     Scene scene = test::small_room();
-    scene.solve.element_size = 0.7;
+    scene.solve.element_size = 1;
     scene.solve.target_error = 0.05;
     return scene;
 }
