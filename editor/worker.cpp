@@ -89,6 +89,7 @@ struct Worker::State {
     Clock::time_point last_publication{};
     double publication_seconds = 0; // that the last one took
     bool field_stale = true;        // the solution has moved on since
+    bool edit_unshown = false;      // the light that was published is that of a scene before
 
     bool has_request() const { return pending_scene || restart; }
 
@@ -127,6 +128,7 @@ void Worker::State::take_requests(std::unique_lock<std::mutex>& lock) {
         shown_error.reset();
     }
     field_stale = field_stale || stale;
+    edit_unshown = edit_unshown || stale;
     lock.lock();
 }
 
@@ -141,7 +143,7 @@ void Worker::State::publish(bool is_paused) {
     next->hierarchy = solution->hierarchy();
     // An edit of the display or the camera shows the same light.
     next->field = field_stale || !snapshot->field ? solution->field() : snapshot->field;
-    field_stale = false;
+    field_stale = edit_unshown = false;
     next->status = solution->status();
     // A field that is lit at all knows its error better than the solver, which looks at it now and then.
     if (next->field && next->field->scene_error > 0)
@@ -163,35 +165,31 @@ void Worker::State::run() {
     lower_priority_of_this_thread();
     bool unpublished = false, preparing = false;
     std::unique_lock lock(mutex);
-    while (true) {
+    while (!quit) {
+        if (has_request()) {
+            take_requests(lock);
+            unpublished = preparing = true; // it prepares again when it is done
+        }
         const bool finished = !solution || solution->status().settled || solution->status().stage == SolveStage::failed;
         const bool may_run = !finished && (!paused || steps > 0);
-        if (!quit && !has_request() && !may_run) {
+        if (!may_run) {
             if (unpublished) {
                 const bool is_paused = paused;
                 lock.unlock();
                 publish(is_paused);
                 unpublished = false;
                 lock.lock();
-                continue; // something may have come in meanwhile
-            }
-            if (preparing && solution && !paused) {
+            } else if (preparing && solution && !paused) {
                 lock.unlock();
                 const bool more = solution->prepare_edits(cancel);
                 lock.lock();
                 preparing = more;
-                continue;
+            } else if (!quit && !has_request()) {
+                work.wait(lock);
             }
-            work.wait(lock);
             continue;
         }
-        if (quit) return;
-        preparing = true; // again, when it is done
-        if (has_request()) {
-            take_requests(lock);
-            unpublished = true;
-            continue;
-        }
+        preparing = true;
         const bool single = paused;
         if (single) --steps;
         const bool is_paused = paused;
@@ -208,9 +206,11 @@ void Worker::State::run() {
         note_history();
         unpublished = true;
         const double since = std::chrono::duration<double>(Clock::now() - last_publication).count();
-        // A large field is shown less often, so that showing takes a small share of the time.
-        const double interval = std::max(params.publish_interval, 6 * publication_seconds);
-        if (!cancel.load() && solution->mesh() && (single || since > interval)) {
+        // A large field is shown less often, so that showing takes a small share of the time; but an edit, however soon
+        // the next one comes, for the hand that drags is led by what it sees.
+        const double interval =
+            edit_unshown ? publication_seconds : std::max(params.publish_interval, 6 * publication_seconds);
+        if ((edit_unshown || !cancel.load()) && solution->mesh() && (single || since > interval)) {
             publish(is_paused);
             unpublished = false;
         }

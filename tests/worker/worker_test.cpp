@@ -4,6 +4,7 @@
 #include <cmath>
 #include <ctime>
 #include <random>
+#include <set>
 #include <thread>
 
 #include <gmock/gmock.h>
@@ -148,6 +149,24 @@ TEST(Worker, AFloodOfEditsEndsSettled) {
     EXPECT_EQ(worker.latest()->scene->luminaires[0].dimmer, 1.0);
     const Solution fresh = test::solved(document.scene());
     EXPECT_LT(test::field_difference(*worker.latest()->field, *fresh.field()), 1e-3);
+}
+
+// The hand that drags a slider sees what it does while it moves.
+TEST(Worker, EditsAreShownHoweverSoonTheNextComes) {
+    Document document(quick_room());
+    Worker worker({.threads = 1, .publish_interval = 0.01, .wake = {}});
+    worker.submit(document.shared_scene(), document.revision(), Stage::mesh);
+    ASSERT_TRUE(worker.wait_settled(document.revision(), patience));
+    std::set<std::uint64_t> shown;
+    for (int k = 1; k <= 2000; ++k) {
+        const double grey = 0.2 + 0.6 * k / 2000;
+        const auto stage = document.apply(SetReflectance{MaterialIndex{0}, grey});
+        ASSERT_TRUE(stage);
+        worker.submit(document.shared_scene(), document.revision(), *stage);
+        shown.insert(worker.latest()->document_revision);
+        std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
+    EXPECT_GE(shown.size(), 10u);
 }
 
 TEST(Worker, PausesStepsAndRestarts) {
