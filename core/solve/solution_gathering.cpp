@@ -1,7 +1,10 @@
 // The gathering solver in a solution: rows of rays, as many as the target error needs, and sweeps over them.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+
+#include <tbb/parallel_reduce.h>
 
 #include "core/solve/gathering_sources.h"
 #include "core/solve/least_absorbed.h"
@@ -22,11 +25,15 @@ using State = Solution::State;
 
 // What the status calls unshot: luminous flux still to be sent on its way, of what the luminaires emit.
 double unshot_flux_share(const State& s) {
-    double flux = 0;
     const std::vector<float> area = receiver_areas(s);
-    for (std::uint32_t i = 0; i < s.receivers.count(); ++i) {
-        flux += area[i] * std::abs(luminous(s, s.system.residual()[i]));
-    }
+    const double flux = tbb::parallel_deterministic_reduce(
+        tbb::blocked_range<std::uint32_t>(0, s.receivers.count(), 1024), 0.0,
+        [&](const auto& range, double sum) {
+            for (std::uint32_t i = range.begin(); i < range.end(); ++i)
+                sum += area[i] * std::abs(luminous(s, s.system.residual()[i]));
+            return sum;
+        },
+        std::plus<>());
     return s.status.emitted_lumens > 0 ? flux / s.status.emitted_lumens : 0;
 }
 
@@ -231,21 +238,22 @@ std::uint32_t most_passes(const State& s) {
 
 // More rays? Asked each time there are as many as were wanted; the answer depends on the geometry only. The error of a
 // quasi-random set falls somewhat faster than one over the root of its rays; two thirds of the way that would leave are
-// gone at once.
-void plan_passes(State& s) {
+// gone at once. False: it had been answered.
+bool plan_passes(State& s) {
     const std::uint32_t now = static_cast<std::uint32_t>(s.passes.size());
-    if (s.rays_planned || now < s.passes_wanted) return;
+    if (s.rays_planned || now < s.passes_wanted) return false;
     const double target = ray_share * s.scene->solve.target_error;
     const double error = grey_ray_error(s.passes, std::span(s.direct->guessed_light()).first(fine_vertices_of_rays(s)),
                                         receiver_areas(s), smoothed_receivers(s));
     if (error <= target || now >= most_passes(s)) {
         s.rays_planned = true;
-        return;
+        return true;
     }
     const double needed = now * std::pow(error / target, 4.0 / 3);
     std::uint32_t next = now + std::max(1u, static_cast<std::uint32_t>(0.67 * (needed - now)));
     next = (next + independent_sets - 1) / independent_sets * independent_sets;
     s.passes_wanted = std::min(most_passes(s), next);
+    return true;
 }
 
 } // namespace
@@ -342,8 +350,7 @@ void step_gathering(State& s, const std::atomic<bool>& cancel) {
     if (s.system.relative_residual() > target) return count_sweep();
     s.rays_unjudged = true;
     const bool refined = s.fully_refined();
-    if (refined) plan_passes(s);
-    if (slice.over()) return; // what was done is not done again
+    if (refined && plan_passes(s)) return; // in a step of its own
     count_sweep();
     if (refined && s.passes.size() >= s.passes_wanted && s.probes.complete()) return settle(s);
     if (!s.direct->is_lit()) {
