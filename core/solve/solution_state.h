@@ -53,6 +53,7 @@ struct Solution::State {
         std::shared_ptr<const World> world;
         std::vector<glm::vec3> origins;
         std::vector<float> area;
+        LightSamples samples;
     };
     std::future<MadeMesh> making_mesh;
     std::vector<std::future<MadeMesh>> left_meshes; // of scenes before, whose threads go on to their end

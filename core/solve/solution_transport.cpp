@@ -13,8 +13,8 @@ constexpr std::uint32_t first_direct_levels = 2; // before the first refined pic
 
 using State = Solution::State;
 
-float cell_of(const State& s) {
-    return static_cast<float>(receiver_cell * s.element_size);
+float cell_of(double element_size) {
+    return static_cast<float>(receiver_cell * element_size);
 }
 
 Room room_of(const State& s) {
@@ -27,7 +27,7 @@ bool refine_indirect(State& s, const std::atomic<bool>& cancel) {
     if (!s.indirect_refinement)
         s.indirect_refinement = std::make_unique<IndirectRefinement>(
             *s.world, s.mesh, *s.direct, s.buried, s.around.distance,
-            IndirectParams{.smallest_element = cell_of(s),
+            IndirectParams{.smallest_element = cell_of(s.element_size),
                            .smallest_edge = static_cast<float>(s.element_size / 8),
                            .most_vertices = s.mesh.coarse_vertex_count +
                                             contact_vertices(s.mesh.coarse_vertex_count, s.receivers.count()),
@@ -52,6 +52,9 @@ State::MadeMesh make_mesh_and_world(const std::shared_ptr<const Scene>& scene, d
     made.origins = ray_origins(made.mesh, made.world->epsilon());
     made.area = vertex_areas(made.mesh);
     made.published = std::make_shared<const Mesh>(made.mesh);
+    if (is_sampled(made.mesh.coarse_vertex_count))
+        made.samples =
+            make_light_samples(*scene, made.mesh, *made.world, made.origins, cell_of(element_size), most_samples);
     return made;
 }
 
@@ -97,16 +100,14 @@ void step_mesh(State& s) {
     s.around.back = s.around.near = s.around.lit;
     s.around.distance.assign(s.mesh.coarse_vertex_count, 0);
     s.around.near_distance = static_cast<float>(near_share * s.element_size);
-    LightSamples samples;
-    if (is_sampled(s.mesh.coarse_vertex_count))
-        samples = make_light_samples(*s.scene, s.mesh, *s.world, s.origins, cell_of(s), most_samples);
-    else if (s.solver() == SolverKind::gathering)
+    if (!is_sampled(s.mesh.coarse_vertex_count) && s.solver() == SolverKind::gathering)
         s.around.hits.resize(std::size_t(s.mesh.coarse_vertex_count) * burial_rays);
     const DirectParams params{.smallest_edge = static_cast<float>(s.element_size / 8),
                               .element_size = static_cast<float>(s.element_size),
                               .most_vertices = s.mesh.coarse_vertex_count + fine_vertices(s.mesh.coarse_vertex_count),
                               .room = room_of(s)};
-    s.direct = std::make_unique<DirectTransport>(*s.world, s.mesh, make_emitters(*s.scene), params, std::move(samples));
+    s.direct =
+        std::make_unique<DirectTransport>(*s.world, s.mesh, make_emitters(*s.scene), params, std::move(made.samples));
     s.coarse_area = s.indirect_area = std::move(made.area);
     make_channels(s);
     publish_mesh(s, std::move(made.published));
@@ -160,7 +161,8 @@ void step_burial(State& s, const std::atomic<bool>& cancel) {
     }
     s.indirect_distance = s.around.distance;
     s.status.rays += std::uint64_t(places) * burial_rays + s.mesh.coarse_element_count;
-    s.receivers = sampled ? receivers_of(samples, s.buried) : make_receivers(*s.scene, s.mesh, s.buried, cell_of(s));
+    s.receivers =
+        sampled ? receivers_of(samples, s.buried) : make_receivers(*s.scene, s.mesh, s.buried, cell_of(s.element_size));
     s.status.matrix_patches = matrix_size(s.mesh, s.scene->solve.matrix_memory).patches;
     s.status.matrix_bytes = matrix_bytes(s.status.matrix_patches);
     s.status.receivers = s.receivers.count();

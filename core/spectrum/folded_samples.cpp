@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <future>
 #include <limits>
 
 #include "core/spectrum/colour_difference.h"
@@ -285,13 +286,17 @@ std::vector<double> FoldedFit::choose(int count) const {
     };
     while (static_cast<int>(state_->chosen.size()) < std::min(count, candidates)) {
         std::vector<int> grown = state_->chosen.empty() ? std::vector<int>{} : state_->chosen.back();
-        double lowest = exchange(grown, 0, candidates - 1);
-        lowest = improve(grown, lowest);
-        const int wanted = static_cast<int>(grown.size());
+        const int wanted = static_cast<int>(grown.size()) + 1;
         std::vector<int> even; // another start, for a grown set may be caught in a valley of its own
         for (int k = 0; k < wanted && wanted <= most_even; ++k)
             even.push_back(candidate_of(even_first + (even_last - even_first) * (k + 0.5) / wanted));
-        if (!even.empty() && improve(even, std::numeric_limits<double>::infinity()) < lowest) grown = std::move(even);
+        // The first picture of a scene waits for its wavelengths.
+        std::future<double> lowest_from_even = std::async(std::launch::async, [&] {
+            return even.empty() ? std::numeric_limits<double>::infinity()
+                                : improve(even, std::numeric_limits<double>::infinity());
+        });
+        const double lowest = improve(grown, exchange(grown, 0, candidates - 1));
+        if (lowest_from_even.get() < lowest) grown = std::move(even);
         state_->chosen.push_back(std::move(grown));
     }
     std::vector<double> nm;

@@ -32,7 +32,7 @@ DirectTransport::DirectTransport(const World& world, Mesh& mesh, std::vector<Emi
     , emitters_(std::move(emitters))
     , params_(params)
     , samples_(std::move(samples))
-    , edges_(mesh, params.room) {
+    , edges_(mesh, params.most_vertices, params.room) {
     weight_ = guessed_exitances(emitters_);
     for (std::uint32_t l = 0; l < emitters_.size(); ++l)
         for (const Emitter& piece :
@@ -216,9 +216,11 @@ bool DirectTransport::begin_level(const std::atomic<bool>& cancel) {
 }
 
 std::vector<float> DirectTransport::bent_edges() {
+    edge_cursor_ = 0;
     std::vector<float> bent(edges_.edges().size(), 0); // the misfit where it is too large
     for (std::size_t e = 0; e < bent.size(); ++e) {
         const EdgeRefinement::Edge& edge = edges_.edges()[e];
+        if (!edges_.is_asked(edge)) continue;
         const float here = guessed_light(edge_rows_[e]);
         const float guess = 0.5f * (guessed_[edge.a] + guessed_[edge.b]);
         const float scale = std::max({here, guess, floor_});
@@ -233,7 +235,7 @@ std::vector<float> DirectTransport::bent_edges() {
 void DirectTransport::split_bent() {
     const std::uint32_t before = static_cast<std::uint32_t>(mesh_.vertices.size());
     const std::uint32_t first_row = row_count();
-    edges_.split(params_.most_vertices);
+    edges_.split();
     follow_vertices();
     const std::uint32_t after = static_cast<std::uint32_t>(mesh_.vertices.size());
     // Of a single luminaire a new vertex at a middle that was looked at is lit already; the others are lit now.
@@ -337,7 +339,7 @@ void DirectTransport::follow_vertices() {
 bool DirectTransport::refine(const std::atomic<bool>& cancel, std::uint32_t levels) {
     if (refined() || level_ >= levels) return true;
     const EdgeRefinement::Level level{[&] { return begin_level(cancel); }, [&] { return look(cancel); },
-                                      [&] { return bent_edges(); }, [&] { split_bent(); }};
+                                      [&] { return bent_edges(); }, [&] { split_bent(); }, 1};
     if (!edges_.step(level, cancel)) return false;
     edge_cursor_ = 0;
     ++level_;
@@ -350,6 +352,7 @@ bool DirectTransport::look(const std::atomic<bool>& cancel) {
                      [&](std::uint32_t first, std::uint32_t last) {
                          for (std::uint32_t e = first; e < last; ++e) {
                              const EdgeRefinement::Edge& edge = edges_.edges()[e];
+                             if (!edges_.is_asked(edge)) continue;
                              const EdgeRefinement::Place middle = edges_.middle(edge, epsilon);
                              const float length =
                                  glm::distance(mesh_.vertices[edge.a].position, mesh_.vertices[edge.b].position);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "core/transport/time_slice.h"
 
@@ -34,8 +35,9 @@ float least_worth(const std::vector<Worth>& wanted, double room) {
 
 } // namespace
 
-EdgeRefinement::EdgeRefinement(Mesh& mesh, Room room)
+EdgeRefinement::EdgeRefinement(Mesh& mesh, std::uint32_t most_vertices, Room room)
     : mesh_(mesh)
+    , most_vertices_(most_vertices)
     , room_(room) {}
 
 void EdgeRefinement::follow_mesh() {
@@ -50,7 +52,9 @@ bool EdgeRefinement::step(const Level& level, const std::atomic<bool>& cancel) {
         if (prepare(cancel)) part_ = Part::collect;
         return false;
     case Part::collect:
-        if (level.collect()) part_ = Part::look;
+        if (!level.collect()) return false;
+        ask_first(level.largest_bend);
+        part_ = Part::look;
         return false;
     case Part::look:
         if (!level.look()) return false;
@@ -58,7 +62,7 @@ bool EdgeRefinement::step(const Level& level, const std::atomic<bool>& cancel) {
         part_ = Part::plan;
         return false;
     case Part::plan:
-        if (plan_split(cancel)) part_ = Part::split;
+        if (plan_split(cancel)) part_ = ask_more(level.largest_bend) ? Part::look : Part::split;
         return false;
     case Part::split:
         level.split();
@@ -91,7 +95,8 @@ bool EdgeRefinement::collect(float smallest, const std::function<bool(std::uint3
         const std::uint32_t n = open_[cursor_];
         const glm::uvec3 v = mesh_.nodes[n].vertices;
         const int longest = bisection_->longest_edge(n);
-        if (bisection_->edge_length(v[longest], v[(longest + 1) % 3]) < smallest * smallest) continue;
+        const float reach = bisection_->edge_length(v[longest], v[(longest + 1) % 3]);
+        if (reach < smallest * smallest) continue;
         const glm::vec3 centre =
             (mesh_.vertices[v.x].position + mesh_.vertices[v.y].position + mesh_.vertices[v.z].position) / 3.0f;
         for (int k = 0; k < 3; ++k) {
@@ -99,9 +104,11 @@ bool EdgeRefinement::collect(float smallest, const std::function<bool(std::uint3
             const std::uint64_t key = Bisection::edge_key(a, b);
             if (straight_.contains(key) || !wanted(a, b)) continue;
             const auto [where, fresh] = edge_slot_.try_emplace(key, static_cast<std::uint32_t>(edges_.size()));
-            if (fresh) edges_.push_back({std::min(a, b), std::max(a, b), glm::vec3(0), 0});
-            edges_[where->second].inward += centre;
-            edges_[where->second].elements += 1;
+            if (fresh) edges_.push_back({std::min(a, b), std::max(a, b)});
+            Edge& edge = edges_[where->second];
+            edge.inward += centre;
+            edge.elements += 1;
+            edge.reach = std::max(edge.reach, reach);
         }
     }
     first_node_ = next_node_;
@@ -116,8 +123,35 @@ EdgeRefinement::Place EdgeRefinement::middle(const Edge& edge, float epsilon) co
     return {ray_origin(0.5f * (a.position + b.position), normal, edge.inward / float(edge.elements), epsilon), normal};
 }
 
-void EdgeRefinement::judge(std::vector<float> bent) {
-    bent_ = std::move(bent);
+void EdgeRefinement::ask_first(float largest_bend) {
+    asked_from_ = 0;
+    asked_below_ = std::numeric_limits<float>::infinity();
+    bent_.assign(edges_.size(), 0);
+    const double few = 2 * room();
+    if (room_ != Room::for_finer_levels || !std::isfinite(largest_bend) || double(edges_.size()) <= few) return;
+    std::vector<float> reach;
+    for (const Edge& edge : edges_) reach.push_back(edge.reach);
+    const auto last = reach.begin() + static_cast<std::ptrdiff_t>(few);
+    std::nth_element(reach.begin(), last, reach.end(), std::greater());
+    asked_from_ = *last;
+}
+
+bool EdgeRefinement::ask_more(float largest_bend) {
+    std::sort(wanted_.begin(), wanted_.end(), [](const Worth& a, const Worth& b) {
+        return a.first != b.first ? a.first > b.first : a.second < b.second;
+    });
+    least_ = room_ == Room::for_finer_levels ? least_worth(wanted_, room()) : 0;
+    // More edges make the least larger: those that reach it now are all there is to ask.
+    const float from = std::isfinite(largest_bend) ? least_ / largest_bend : 0;
+    if (asked_from_ <= from) return false;
+    asked_below_ = asked_from_;
+    asked_from_ = from;
+    return true;
+}
+
+void EdgeRefinement::judge(const std::vector<float>& bent) {
+    for (std::size_t e = 0; e < edges_.size(); ++e)
+        if (is_asked(edges_[e])) bent_[e] = bent[e];
     wanted_.clear();
     cursor_ = 0;
 }
@@ -126,7 +160,8 @@ bool EdgeRefinement::plan_split(const std::atomic<bool>& cancel) {
     TimeSlice slice(cancel, leaves_a_look);
     for (; cursor_ < edges_.size(); ++cursor_) {
         if (slice.over()) return false;
-        if (bent_[cursor_] == 0) straight_.emplace(Bisection::edge_key(edges_[cursor_].a, edges_[cursor_].b), 1);
+        const Edge& edge = edges_[cursor_];
+        if (is_asked(edge) && bent_[cursor_] == 0) straight_.emplace(Bisection::edge_key(edge.a, edge.b), 1);
     }
     for (; cursor_ < edges_.size() + open_.size(); ++cursor_) {
         if (slice.over()) return false;
@@ -143,15 +178,9 @@ bool EdgeRefinement::plan_split(const std::atomic<bool>& cancel) {
     return true;
 }
 
-void EdgeRefinement::split(std::uint32_t most_vertices) {
-    std::sort(wanted_.begin(), wanted_.end(), [](const auto& a, const auto& b) {
-        return a.first != b.first ? a.first > b.first : a.second < b.second;
-    });
-    const float least = room_ == Room::for_finer_levels
-                            ? least_worth(wanted_, double(most_vertices) - double(mesh_.vertices.size()))
-                            : 0;
+void EdgeRefinement::split() {
     for (const auto& [worth, n] : wanted_) {
-        if (mesh_.vertices.size() >= most_vertices || worth < least) break;
+        if (mesh_.vertices.size() >= most_vertices_ || worth < least_) break;
         if (mesh_.nodes[n].children == no_index) bisection_->split(n);
     }
     list_leaves(mesh_);
@@ -160,7 +189,7 @@ void EdgeRefinement::split(std::uint32_t most_vertices) {
 std::uint32_t EdgeRefinement::edge_of(std::uint32_t vertex) const {
     const auto& parents = mesh_.vertices[vertex].parents;
     const auto slot = edge_slot_.find(Bisection::edge_key(parents[0], parents[1]));
-    return slot != edge_slot_.end() ? slot->second : no_index;
+    return slot != edge_slot_.end() && edges_[slot->second].reach >= asked_from_ ? slot->second : no_index;
 }
 
 } // namespace lueur

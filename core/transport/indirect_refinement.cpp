@@ -29,7 +29,7 @@ IndirectRefinement::IndirectRefinement(const World& world, Mesh& mesh, const Dir
     , mesh_(mesh)
     , params_(params)
     , samples_(direct.samples())
-    , edges_(mesh, params.room)
+    , edges_(mesh, params.most_vertices, params.room)
     , buried_(std::move(buried))
     , distance_(std::move(distance))
     , origins_(ray_origins(mesh, world.epsilon())) {
@@ -121,7 +121,7 @@ std::vector<float> IndirectRefinement::bent_edges() {
 
 void IndirectRefinement::split_bent() {
     const std::uint32_t before = static_cast<std::uint32_t>(mesh_.vertices.size());
-    edges_.split(params_.most_vertices);
+    edges_.split();
     const std::uint32_t after = static_cast<std::uint32_t>(mesh_.vertices.size());
     origins_ = ray_origins(mesh_, world_.epsilon());
     std::vector<std::uint32_t> unseen; // made for conformity

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <optional>
 #include <unordered_map>
 
 #include <Eigen/Dense>
@@ -84,9 +85,30 @@ Feature feature_of(const MeshVertex& vertex, float cell) {
     return Feature(p.x, p.y, p.z, n.x, n.y, n.z);
 }
 
+// What is around vertices, asked when it is first needed. Not for two threads at the same vertex.
+class Around {
+public:
+    Around(const Mesh& mesh, const World& world, const std::vector<glm::vec3>& origins)
+        : mesh_(mesh)
+        , world_(world)
+        , origins_(origins)
+        , known_(mesh.coarse_vertex_count) {}
+
+    const LookAround& operator()(std::uint32_t v) {
+        std::optional<LookAround>& known = known_[v];
+        if (!known) known = look_around(world_, origins_[v], mesh_.vertices[v].normal);
+        return *known;
+    }
+
+private:
+    const Mesh& mesh_;
+    const World& world_;
+    const std::vector<glm::vec3>& origins_;
+    std::vector<std::optional<LookAround>> known_;
+};
+
 // What is around each sample, m, where a group has several vertices; else far.
-std::vector<float> choose_samples(const Mesh& mesh, const World& world, const std::vector<glm::vec3>& origins,
-                                  LightSamples& samples) {
+std::vector<float> choose_samples(const Mesh& mesh, Around& around_of, LightSamples& samples) {
     const auto groups = static_cast<std::uint32_t>(samples.size.size());
     std::vector<std::uint32_t> first(groups + 1, 0), member(samples.of_vertex.size());
     for (std::uint32_t g = 0; g < groups; ++g) first[g + 1] = first[g] + samples.size[g];
@@ -111,7 +133,7 @@ std::vector<float> choose_samples(const Mesh& mesh, const World& world, const st
             samples.vertex[g] = nearest[0].second;
             for (std::size_t t = 0; t < tries; ++t) {
                 const std::uint32_t v = nearest[t].second;
-                const LookAround around = look_around(world, origins[v], mesh.vertices[v].normal);
+                const LookAround& around = around_of(v);
                 if (around.buried) continue;
                 samples.vertex[g] = v;
                 distance[g] = around.distance;
@@ -268,8 +290,7 @@ void read_plane(const Feature& at, std::span<const SampleTree::Near> near, Readi
         if (w[k] > 0) out.push_back({near[k].point->sample, w[k] / all});
 }
 
-void add_readings(const Scene& scene, const Mesh& mesh, const World& world, const std::vector<glm::vec3>& origins,
-                  LightSamples& samples) {
+void add_readings(const Scene& scene, const Mesh& mesh, Around& around, LightSamples& samples) {
     const auto vertices = static_cast<std::uint32_t>(samples.of_vertex.size());
     samples.first_reading.assign(vertices + 1, 0);
     samples.readings.clear();
@@ -285,8 +306,7 @@ void add_readings(const Scene& scene, const Mesh& mesh, const World& world, cons
     std::vector<std::uint8_t> buried(samples.count(), 0);
     tbb::parallel_for(Range(0, samples.count(), 64), [&](const Range& range) {
         for (std::uint32_t g = range.begin(); g < range.end(); ++g)
-            if (const std::uint32_t v = samples.vertex[g]; !readers[side(v)].empty())
-                buried[g] = look_around(world, origins[v], mesh.vertices[v].normal).buried;
+            if (const std::uint32_t v = samples.vertex[g]; !readers[side(v)].empty()) buried[g] = around(v).buried;
     });
     for (const bool inside : {false, true})
         for (std::uint32_t g = 0; g < samples.count(); ++g) {
@@ -355,18 +375,19 @@ LightSamples make_light_samples(const Scene& scene, const Mesh& mesh, const Worl
     Grouping by{cell, 2, std::vector<std::uint8_t>(mesh.coarse_vertex_count, 0)};
     for (; !group(scene, mesh, by, most / 8 * 3, samples); by.look = 1)
         if (by.look == 1) by.cell *= wider;
-    std::vector<float> distance = choose_samples(mesh, world, origins, samples);
+    Around around(mesh, world, origins);
+    std::vector<float> distance = choose_samples(mesh, around, samples);
     for (int cut = 0; cut < most_cuts; ++cut) {
         const Grouping before = by;
         if (!cut_groups(samples, distance, most - samples.count(), by)) break;
         if (!group(scene, mesh, by, most, samples)) { // parts were more than thought
             group(scene, mesh, before, most, samples);
-            choose_samples(mesh, world, origins, samples);
+            choose_samples(mesh, around, samples);
             break;
         }
-        distance = choose_samples(mesh, world, origins, samples);
+        distance = choose_samples(mesh, around, samples);
     }
-    add_readings(scene, mesh, world, origins, samples);
+    add_readings(scene, mesh, around, samples);
     return samples;
 }
 

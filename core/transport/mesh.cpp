@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
-#include <unordered_map>
 
+#include "core/scene/index_table.h"
 #include "core/transport/bisection.h"
 
 namespace lueur {
@@ -31,24 +30,20 @@ std::vector<bool> two_sided_surfaces(const Scene& scene) {
     return surfaces;
 }
 
-// Vertices of one surface are one where position, texture coordinate and (on curved surfaces) normal are the same bits.
-struct WeldKey {
-    std::uint32_t surface;
-    std::array<float, 8> value;
-    bool operator==(const WeldKey&) const = default;
-};
-struct WeldHash {
-    std::size_t operator()(const WeldKey& key) const {
-        std::uint64_t hash = 0x9e3779b97f4a7c15ull ^ key.surface;
-        for (const float f : key.value) {
-            std::uint32_t bits;
-            std::memcpy(&bits, &f, 4);
-            hash = (hash ^ bits) * 0xff51afd7ed558ccdull;
-            hash ^= hash >> 32;
-        }
-        return hash;
+std::uint64_t hash_of(const MeshVertex& vertex) {
+    std::uint64_t hash = 0x9e3779b97f4a7c15ull ^ vertex.surface;
+    const glm::vec3 &p = vertex.position, &n = vertex.normal;
+    for (const float f : {p.x, p.y, p.z, n.x, n.y, n.z, vertex.uv.x, vertex.uv.y}) {
+        hash = (hash ^ std::bit_cast<std::uint32_t>(f + 0.0f)) * 0xff51afd7ed558ccdull; // -0 equals 0
+        hash ^= hash >> 32;
     }
-};
+    return hash;
+}
+
+// Vertices of one surface are one where position, texture coordinate and (on curved surfaces) normal are the same.
+bool same_vertex(const MeshVertex& a, const MeshVertex& b) {
+    return a.surface == b.surface && a.position == b.position && a.normal == b.normal && a.uv == b.uv;
+}
 
 void add_surface_triangles(const Scene& scene, Mesh& mesh) {
     const Geometry& geometry = *scene.geometry;
@@ -58,8 +53,7 @@ void add_surface_triangles(const Scene& scene, Mesh& mesh) {
     for (glm::vec3& n : plane_normal)
         if (glm::dot(n, n) > 0) n = glm::normalize(n);
 
-    std::unordered_map<WeldKey, std::uint32_t, WeldHash> welded;
-    welded.reserve(geometry.vertices.size());
+    IndexTable welded(geometry.triangles.size() * 3);
     for (std::size_t t = 0; t < geometry.triangles.size(); ++t) {
         const std::uint32_t s = static_cast<std::uint32_t>(at(geometry.triangle_surface[t]));
         const bool planar = geometry.surfaces[s].planar;
@@ -70,11 +64,11 @@ void add_surface_triangles(const Scene& scene, Mesh& mesh) {
             const Vertex& v = geometry.vertices[geometry.triangles[t][k]];
             glm::vec3 normal = planar || v.normal == glm::vec3(0) ? flat_normal : v.normal;
             if (glm::dot(normal, flat_normal) < 0) normal = -normal; // a file's normal on the wrong side
-            const glm::vec3 p = v.position + 0.0f;                   // -0 becomes 0
-            const WeldKey key{s, {p.x, p.y, p.z, normal.x, normal.y, normal.z, v.uv.x, v.uv.y}};
-            const auto [where, fresh] = welded.try_emplace(key, static_cast<std::uint32_t>(mesh.vertices.size()));
-            if (fresh) mesh.vertices.push_back({v.position, normal, v.uv, s, false, {no_index, no_index}});
-            corners[k] = where->second;
+            const MeshVertex vertex{v.position, normal, v.uv, s, false, {no_index, no_index}};
+            corners[k] =
+                welded.find_or_insert(hash_of(vertex), static_cast<std::uint32_t>(mesh.vertices.size()),
+                                      [&](std::uint32_t other) { return same_vertex(mesh.vertices[other], vertex); });
+            if (corners[k] == mesh.vertices.size()) mesh.vertices.push_back(vertex);
         }
         if (corners.x == corners.y || corners.y == corners.z || corners.z == corners.x) continue;
         mesh.nodes.push_back({corners, static_cast<std::uint32_t>(mesh.nodes.size())});
