@@ -1,6 +1,7 @@
 #include "core/solve/error_model.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "core/solve/relative_error.h"
@@ -38,6 +39,15 @@ void pool(std::span<const glm::uvec3> elements, const std::vector<std::uint8_t>&
     for (std::size_t v = 0; v < variance.size(); ++v) variance[v] *= square(v);
 }
 
+// How near what a vertex looks at is, for straight lines between vertices as far apart as here: 0 far away, 1 in a gap
+// between books, where rays end within an element of where they start.
+float closeness(const State& s, std::uint32_t v) {
+    return std::min(1.0f, 0.5f * std::sqrt(s.indirect_area[v]) / std::max(1e-20f, s.indirect_distance[v]));
+}
+
+// RMS error of indirect light of one pass of rays, some of it solved for a guess of direct light (office: 11 %).
+constexpr float share_of_guess = 0.1f;
+
 // Indirect light is solved at the vertices of one level; others interpolate it. Halfway between two vertices their
 // errors are half averaged away, and a bent field is missed.
 void model_indirect(const State& s, const ErrorMesh& mesh, const ErrorLight& light, ErrorModel& model) {
@@ -46,8 +56,13 @@ void model_indirect(const State& s, const ErrorMesh& mesh, const ErrorLight& lig
     model.bent.assign(count, 0);
     if (!s.solving) return;
     const std::span<const float> value(light.indirect.data(), coarse);
-    const std::vector<float> near = mesh.coarse.neighbour_differences(value), bend = mesh.coarse.at_vertices(value);
+    std::vector<float> near = mesh.coarse.neighbour_differences(value);
+    const std::vector<float> bend = mesh.coarse.at_vertices(value);
     const double least = dark_share * light.mean;
+    for (std::uint32_t v = 0; v < coarse; ++v) { // in a crack the light outside is no measure of the error
+        const float bright = 2 * std::max(value[v], static_cast<float>(least));
+        near[v] = std::min(near[v], bright * bright);
+    }
     // After the mesh has changed what was known of the level before is of no use.
     model.known = s.indirect_deviation.size() >= coarse;
     if (model.known) {
@@ -57,6 +72,13 @@ void model_indirect(const State& s, const ErrorMesh& mesh, const ErrorLight& lig
     const bool shared = s.solver() == SolverKind::gathering && s.direct->samples().count() == 0; // else see below
     for (std::uint32_t v = 0; v < coarse; ++v) {
         model.bent[v] = 0.25f * near[v];
+        // There no ray tells what lies between the vertices: of `bent` a thirtieth is error elsewhere, there a quarter
+        // (paths at 59 such vertices of the office, 17 of the Cornell box).
+        if (model.known) model.bent[v] *= 1 + 7 * closeness(s, v);
+        if (!model.known && s.solver() == SolverKind::gathering) {
+            const float guessed = share_of_guess * value[v];
+            model.rays[v] = guessed * guessed;
+        }
         // Read from a receiver that lies elsewhere.
         if (shared && s.receivers.vertex[s.receivers.of_vertex[v]] != v) model.rays[v] += 0.25f * near[v];
     }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/solve/solution_state.h"
+#include "tests/support/error_truth.h"
 #include "tests/support/scenes.h"
 
 using namespace lueur;
@@ -136,7 +137,12 @@ TEST(FirstPictures, ComeBeforeTheDirectLightOfManyLamps) {
     step_until(fresh, is_early);
     const double early = mean_illuminance(*fresh.field());
     EXPECT_FALSE(fresh.state().direct->is_lit());
-    EXPECT_EQ(fresh.field()->scene_error, 1) << "nothing is known of how wrong a guess is";
+    const auto guessed = fresh.field();
+    const test::ErrorVerdict verdict =
+        test::judge_vertices(fresh, *guessed, test::true_vertices(fresh, true, 100, 256, 24));
+    EXPECT_GT(verdict.covered, 0.95 - 2 * 0.022); // as 100 vertices know it
+    EXPECT_GT(guessed->scene_error, 0.5 * verdict.truth);
+    EXPECT_LT(guessed->scene_error, 0.5) << "a guess that indirect light is solved for is not wholly unknown";
     step_until(fresh, is_lit);
     const double lit = mean_illuminance(*fresh.field());
     EXPECT_NEAR(early / lit, 1, 0.03);
