@@ -7,3 +7,11 @@
 #else
 #define LUEUR_BEST_VECTORS
 #endif
+
+namespace lueur {
+
+// Eight channels as one register (two, without 256-bit vectors). Written out, for the compiler would sum channel by
+// channel in memory.
+using Lanes [[gnu::vector_size(32), gnu::aligned(4), gnu::may_alias]] = float;
+
+} // namespace lueur

@@ -9,6 +9,8 @@
 
 namespace lueur {
 
+inline constexpr std::size_t register_channels = 8; // floats of the widest vectors in use
+
 struct ChannelField {
     std::uint32_t count = 0; // vertices or elements
     int stride = 8;          // channels rounded up to a multiple of 8; the padding stays 0

@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/scene/spectral_content.h"
+#include "core/solve/best_vectors.h"
 #include "core/solve/error_estimate.h"
 #include "core/solve/restriction.h"
 #include "core/solve/solution_state.h"
@@ -19,22 +20,36 @@ namespace {
 
 using Range = tbb::blocked_range<std::uint32_t>;
 
-// XYZ of (weight_k * value_k): three numbers a channel, of some neighbouring channels.
+// XYZ of (weight_k * value_k): of all channels the weights of X, then of Y and of Z, those of other wavelengths 0.
 struct ChannelWeights {
-    std::size_t first = 0;
-    std::vector<glm::vec3> weight;
+    std::size_t stride = 0;
+    std::vector<float> weight;
 
-    glm::vec3 operator()(const float* channels) const {
+    glm::vec3 operator()(const float* channels) const { return sums(weight.data(), channels, stride); }
+
+private:
+    LUEUR_BEST_VECTORS static glm::vec3 sums(const float* weight, const float* channels, std::size_t stride) {
+        Lanes x{}, y{}, z{};
+        for (std::size_t c = 0; c < stride; c += register_channels) {
+            const Lanes value = *reinterpret_cast<const Lanes*>(channels + c);
+            x += *reinterpret_cast<const Lanes*>(weight + c) * value;
+            y += *reinterpret_cast<const Lanes*>(weight + stride + c) * value;
+            z += *reinterpret_cast<const Lanes*>(weight + 2 * stride + c) * value;
+        }
         glm::vec3 xyz(0);
-        for (std::size_t k = 0; k < weight.size(); ++k) xyz += weight[k] * channels[first + k];
+        for (std::size_t c = 0; c < register_channels; ++c) xyz += glm::vec3(x[c], y[c], z[c]);
         return xyz;
     }
 };
 
-ChannelWeights weights_of(const Wavelengths& wavelengths, std::size_t first, const double* factors, double scale) {
-    ChannelWeights weights{first, {}};
+// first: where the wavelengths' channels begin in rows of `stride`.
+ChannelWeights weights_of(const Wavelengths& wavelengths, std::size_t first, std::size_t stride, const double* factors,
+                          double scale) {
+    ChannelWeights weights{stride, std::vector<float>(3 * stride, 0.0f)};
     for (std::size_t k = 0; k < wavelengths.xyz_weight.size(); ++k)
-        weights.weight.emplace_back(scale * (factors ? factors[k] : 1.0) * wavelengths.xyz_weight[k]);
+        for (int axis = 0; axis < 3; ++axis)
+            weights.weight[static_cast<std::size_t>(axis) * stride + first + k] =
+                static_cast<float>(scale * (factors ? factors[k] : 1.0) * wavelengths.xyz_weight[k][axis]);
     return weights;
 }
 
@@ -51,20 +66,23 @@ struct Shader {
 
     Shader(const Solution::State& s, const Wavelengths& wavelengths, std::size_t first) {
         constexpr double per_steradian = 1 / std::numbers::pi;
+        const auto stride = static_cast<std::size_t>(ChannelField(0, s.channels()).stride);
         for (std::size_t m = 0; m < s.material_rho.size(); ++m) {
-            OnMaterial on{weights_of(wavelengths, first, s.material_rho[m].data() + first, per_steradian), {}, false};
+            OnMaterial on{
+                weights_of(wavelengths, first, stride, s.material_rho[m].data() + first, per_steradian), {}, false};
             const Material& material = s.scene->materials[m];
             if (material.texture && material.texture->image) {
                 on.textured = any_texture = true;
                 const auto texels = texel_channels(material, wavelengths);
                 for (std::size_t t = 0; t < 3; ++t)
-                    on.by_texel[t] = weights_of(wavelengths, first, texels[t].data(), per_steradian);
+                    on.by_texel[t] = weights_of(wavelengths, first, stride, texels[t].data(), per_steradian);
             }
             materials.push_back(std::move(on));
         }
-        const ChannelWeights seen = weights_of(wavelengths, first, nullptr, per_steradian);
+        const ChannelWeights seen = weights_of(wavelengths, first, stride, nullptr, per_steradian);
         for (const auto& exitance : s.luminaire_exitance) {
-            const std::vector<float> channels(exitance.begin(), exitance.end());
+            std::vector<float> channels(exitance.begin(), exitance.end());
+            channels.resize(stride, 0.0f);
             emitted.push_back(seen(channels.data()));
         }
     }
@@ -88,6 +106,15 @@ struct Shader {
         });
     }
 };
+
+LUEUR_BEST_VECTORS void add_shares(std::span<const DirectShare> row, const ChannelField& exitance, float* irradiance) {
+    for (int c = 0; c < exitance.stride; c += int(register_channels)) {
+        Lanes sum = *reinterpret_cast<const Lanes*>(irradiance + c);
+        for (const DirectShare& share : row)
+            sum += share.factor * *reinterpret_cast<const Lanes*>(exitance[share.emitter] + c);
+        *reinterpret_cast<Lanes*>(irradiance + c) = sum;
+    }
+}
 
 // Irradiance of all vertices in channels: indirect light of the coarse ones, interpolated, and direct light.
 ChannelField irradiance_channels(const Solution::State& s, std::vector<float>& unshot) {
@@ -150,19 +177,20 @@ std::vector<float> colour_differences(const Field& field) {
 void read_direct(const Solution::State& s, const Exitances& of, ChannelField& irradiance) {
     ChannelField exitance(static_cast<std::uint32_t>(of.size()), s.channels());
     for (std::uint32_t l = 0; l < exitance.count; ++l) std::copy(of[l].begin(), of[l].end(), exitance[l]);
-    ChannelField at_rows(s.direct->row_count(), s.channels());
-    tbb::parallel_for(Range(0, at_rows.count, 256), [&](const Range& range) {
+    // Rows of samples are read with weights; where all vertices are samples, the vertices are the rows.
+    const bool sampled = s.direct->samples().count() > 0;
+    ChannelField at_rows(sampled ? s.direct->row_count() : 0, s.channels());
+    tbb::parallel_for(Range(0, s.direct->row_count(), 256), [&](const Range& range) {
         for (std::uint32_t r = range.begin(); r < range.end(); ++r)
-            for (const DirectShare& share : s.direct->rows()[r])
-                for (int k = 0; k < at_rows.stride; ++k) at_rows[r][k] += share.factor * exitance[share.emitter][k];
+            add_shares(s.direct->rows()[r], exitance, sampled ? at_rows[r] : irradiance[r]);
     });
-    s.direct->read_rows(at_rows.values, static_cast<std::size_t>(at_rows.stride), irradiance.values);
+    if (sampled) s.direct->read_rows(at_rows.values, static_cast<std::size_t>(at_rows.stride), irradiance.values);
 }
 
 std::shared_ptr<const Field> compose_field(const Solution::State& s) {
     auto field = std::make_shared<Field>();
     ChannelField irradiance = irradiance_channels(s, field->unshot);
-    const ChannelWeights seen = weights_of(*s.wavelengths, 0, nullptr, 1);
+    const ChannelWeights seen = weights_of(*s.wavelengths, 0, static_cast<std::size_t>(irradiance.stride), nullptr, 1);
     field->irradiance_xyz.resize(irradiance.count);
     tbb::parallel_for(Range(0, irradiance.count, 512), [&](const Range& range) {
         for (std::uint32_t v = range.begin(); v < range.end(); ++v) field->irradiance_xyz[v] = seen(irradiance[v]);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include <tbb/parallel_for.h>
+
 #include "core/solve/relative_error.h"
 #include "core/solve/solution_steps.h"
 
@@ -152,14 +154,14 @@ ErrorModel error_model(const State& s, const ErrorMesh& mesh, const ErrorLight& 
                      false};
     const double usual = usual_light(light, mesh, static_cast<std::uint32_t>(light.total.size()));
     if (shows_direct_apart(s)) // where it is dark there may be as much as elsewhere, but for what luminaires fill
-        for (std::size_t v = 0; v < model.hidden.size(); ++v) {
+        tbb::parallel_for(std::size_t(0), model.hidden.size(), [&](std::size_t v) {
             double filled = 0; // form factors
             s.direct->each_share(static_cast<std::uint32_t>(v),
                                  [&](const DirectShare& share, float part) { filled += double(part) * share.factor; });
             const double unfilled = std::max(0.0, 1 - filled);
             const double bright = unfilled * hidden_share * 0.5 * (double(light.total[v]) + usual);
             model.hidden[v] = static_cast<float>(bright * bright);
-        }
+        });
     else
         std::ranges::fill(model.direct, 0.0f);
     model_indirect(s, mesh, light, model);

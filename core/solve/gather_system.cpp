@@ -17,10 +17,6 @@ namespace {
 using Sums = std::array<double, max_channels>;
 constexpr std::uint32_t vertices_a_task = 256;
 
-// Eight channels as one register (two, without 256-bit vectors). Written out, for the compiler would sum channel by
-// channel in memory.
-using Lanes [[gnu::vector_size(32), gnu::aligned(4), gnu::may_alias]] = float;
-
 // Channels first .. first + Count of one receiver.
 template <int Count>
 [[gnu::always_inline]] inline void apply_receiver(std::span<const GatherPass> passes, RayEnds which,

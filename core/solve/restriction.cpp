@@ -1,7 +1,6 @@
 #include "core/solve/restriction.h"
 
 #include <algorithm>
-#include <unordered_map>
 
 namespace lueur {
 
@@ -33,7 +32,7 @@ void fill_buried(std::span<const glm::uvec3> elements, std::vector<std::uint8_t>
         if (buried[e.x] || buried[e.y] || buried[e.z]) mixed.push_back(e);
     for (int ring = 0; ring < 4 && !mixed.empty(); ++ring) {
         std::vector<std::uint32_t> touched;
-        std::unordered_map<std::uint32_t, std::uint32_t> neighbours; // of each touched vertex, with repeats
+        std::vector<std::uint32_t> neighbours(values.count, 0); // of each touched vertex, with repeats
         for (const glm::uvec3& e : mixed)
             for (int k = 0; k < 3; ++k) {
                 if (!buried[e[k]]) continue;

@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
 #include "core/solve/gathering_sources.h"
@@ -376,8 +377,9 @@ double gathering_progress(const State& s) {
 
 std::vector<float> unshot_of_gathering(const State& s) {
     std::vector<float> unshot(s.indirect_irradiance.count);
-    for (std::uint32_t v = 0; v < unshot.size(); ++v)
+    tbb::parallel_for(std::size_t(0), unshot.size(), [&](std::size_t v) {
         unshot[v] = static_cast<float>(std::abs(luminous(s, s.system.residual()[s.receivers.of_vertex[v]])));
+    });
     return unshot;
 }
 

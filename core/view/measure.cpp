@@ -61,11 +61,25 @@ Irradiance gather(const Solution::State& s, glm::vec3 origin, glm::vec3 normal, 
     return result;
 }
 
+// The lit side nearest to the point, within a thousandth of the scene's size below or above it. Looked for ever further
+// off, and through backs: a point in a gap lies closer to the bottom of the book above than that.
+Hit surface_at(const World& world, glm::vec3 position, glm::vec3 normal) {
+    for (const float away : {2.0f, 20.0f, 500.0f}) {
+        const float reach = away * world.epsilon();
+        const glm::vec3 origin = position + reach * normal;
+        for (float from = 0; from < 2 * reach;) {
+            const Hit hit = world.closest({origin, -normal, from, 2 * reach});
+            if (!hit.any()) break;
+            if (hit.element != no_index) return hit;
+            from = std::max(hit.t, from) + 0.1f * world.epsilon();
+        }
+    }
+    return {};
+}
+
 // Without a field: no standard error.
 Irradiance read_field(const Solution::State& s, const Field* field, glm::vec3 position, glm::vec3 normal) {
-    // The surface within a thousandth of the scene's size below or above the point.
-    const float reach = 500 * s.world->epsilon();
-    const Hit hit = s.world->closest({position + reach * normal, -normal, 0, 2 * reach});
+    const Hit hit = surface_at(*s.world, position, normal);
     Irradiance result;
     if (hit.element == no_index) {
         result.channels.assign(s.wavelengths->size(), std::numeric_limits<double>::quiet_NaN());
