@@ -178,7 +178,9 @@ void Solution::update(std::shared_ptr<const Scene> scene, SolveFrom stale) {
         plan_channels(s);
         return;
     }
-    const SameChannels same = take_channels(s);
+    const bool on_same_rows = s.solver() == SolverKind::gathering && solver_before == SolverKind::gathering &&
+                              s.solving && s.rows_of_system == s.passes_traced && stale == SolveFrom::reflectance;
+    const SameChannels same = take_channels(s, on_same_rows);
     const SolveSettings& now = s.scene->solve;
     if (s.solver() != solver_before || !same.channels || stale == SolveFrom::black || stale == SolveFrom::transport ||
         s.phase == SolvePhase::failed || other_links)

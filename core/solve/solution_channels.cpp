@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <future>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -30,11 +31,13 @@ void plan_channels(State& s) {
                             [scene = s.scene, before = s.choice] { return choose_wavelengths(scene, before); });
 }
 
-void make_channels(State& s) {
+namespace {
+
+// Everything in the wavelengths that are chosen.
+void read_channels(State& s) {
     const Scene& scene = *s.scene;
-    const auto scene_before = s.choice.scene;
+    const auto scene_before = std::exchange(s.scene_of_channels, s.scene);
     const auto wavelengths_before = s.wavelengths;
-    s.choice = s.choosing.valid() ? s.choosing.get() : choose_wavelengths(s.scene, s.choice);
     s.wavelengths = s.choice.wavelengths;
     s.status.predicted_colour_error = s.choice.predicted_error;
     s.status.wavelengths = s.choice.words;
@@ -77,11 +80,27 @@ void make_channels(State& s) {
     s.status.message = dark;
 }
 
-SameChannels take_channels(State& s) {
+// Other paints only: the wavelengths there are show them nearly as well.
+bool differs_in_paints(const Scene& a, const Scene& b) {
+    return a.solve.wavelengths == b.solve.wavelengths && a.solve.colour_error == b.solve.colour_error &&
+           std::ranges::equal(a.luminaires, b.luminaires, {}, &Luminaire::spectrum, &Luminaire::spectrum);
+}
+
+} // namespace
+
+void make_channels(State& s) {
+    s.choice = s.choosing.valid() ? s.choosing.get() : choose_wavelengths(s.scene, s.choice);
+    s.choice_waits = false;
+    read_channels(s);
+}
+
+SameChannels take_channels(State& s, bool may_wait) {
     const auto wavelengths_before = s.wavelengths;
     const auto rho_before = s.material_rho, exitance_before = s.luminaire_exitance;
     const int channels_before = s.channels();
-    make_channels(s);
+    if (s.choosing.valid()) s.choice = s.choosing.get(); // of a scene before
+    s.choice_waits = may_wait && differs_in_paints(*s.choice.scene, *s.scene);
+    s.choice_waits ? read_channels(s) : make_channels(s);
     const bool same_channels = s.channels() == channels_before && s.wavelengths->nm == wavelengths_before->nm &&
                                s.wavelengths->spec == wavelengths_before->spec;
     // Another lamp of the same flux where all lamps have one spectrum: only the weights to XYZ have changed.

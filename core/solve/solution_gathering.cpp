@@ -157,8 +157,7 @@ bool prepare_rows(State& s, const std::atomic<bool>& cancel) {
     if (slice.over()) return false;
     if (!s.rows_in_the_making) {
         const std::uint32_t n = s.receivers.count();
-        s.rows_in_the_making.emplace(reflected_direct(s, s.luminaire_exitance), ChannelField(n, s.channels()),
-                                     std::nullopt, ChannelField(n, s.channels()));
+        s.rows_in_the_making.emplace(reflected_direct(s, s.luminaire_exitance), ChannelField(n, s.channels()));
         if (s.solving && s.system.count() > 0 && s.system.count() != n)
             s.rows_in_the_making->guess = radiosity_of_more_receivers(s);
         if (slice.over()) return false;
@@ -168,6 +167,8 @@ bool prepare_rows(State& s, const std::atomic<bool>& cancel) {
         if (!apply_rows(s.passes, RayEnds::fine, d.reflected, d.cursor, d.gathered, cancel)) return false;
         if (slice.over()) return false;
     }
+    if (!has_other_rows(s)) return true; // what arrives by them is known
+    if (d.arriving.count == 0) d.arriving = ChannelField(s.receivers.count(), s.channels());
     const bool from_black = !s.solving || s.system.count() == 0; // then nothing arrives
     if (!from_black && d.arriving_cursor < d.arriving.count) {
         const ChannelField& radiosity = d.guess ? *d.guess : s.system.radiosity();
@@ -179,12 +180,7 @@ bool prepare_rows(State& s, const std::atomic<bool>& cancel) {
 
 // Other rays: those that there are more of now start from what is known, and one reflection of direct light is as
 // gathered by them.
-void set_other_rows(State& s) {
-    const std::atomic<bool> never{false};
-    while (!prepare_rows(s, never)) {
-    }
-    State::RowsInTheMaking rows = std::move(*s.rows_in_the_making);
-    s.rows_in_the_making.reset();
+void set_other_rows(State& s, State::RowsInTheMaking rows) {
     s.light_bases.forget();
     s.basis_in_the_making.reset();
     if (!s.solving || s.system.count() != s.receivers.count()) {
@@ -193,43 +189,52 @@ void set_other_rows(State& s) {
     }
     s.system.set_rows(std::move(rows.arriving));
     s.rows_of_system = s.passes_traced;
-    s.gathered_direct = std::move(rows.gathered);
-    s.system.set_sources(rho_of_receivers(s), s.gathered_direct);
 }
 
-// On the same rows: what is known of each luminaire alone is added up, or else gathered anew.
-void set_other_sources(State& s) {
-    s.light_bases.keep_for(room_for_bases(s), s.material_rho);
-    if (auto known = s.light_bases.sum(s.luminaire_exitance)) {
-        s.gathered_direct = std::move(known->gathered);
-        s.system.set_sources(rho_of_receivers(s), s.gathered_direct, std::move(known->radiosity),
-                             std::move(known->arriving));
-        return;
-    }
-    const std::atomic<bool> never{false};
-    s.gathered_direct = ChannelField(s.receivers.count(), s.channels());
-    apply_rows(s.passes, RayEnds::fine, reflected_direct(s, s.luminaire_exitance), s.gathered_direct, never);
-    s.system.set_sources(rho_of_receivers(s), s.gathered_direct);
-}
-
-// New sources, paints or rays: one reflection of direct light is gathered anew, then the system holds them.
-void gather_direct(State& s) {
-    if (!s.solving) s.indirect_irradiance = {}; // of other channels, or another solver's
-    // A picture that is there stays until the next step, if that was prepared in steps.
-    s.indirect_stale = s.rows_in_the_making && s.indirect_irradiance.count > 0;
-    has_other_rows(s) ? set_other_rows(s) : set_other_sources(s);
+void begin_sweeps(State& s) {
     s.solving = true;
     s.status.sweeps = 0;
     s.sweep_uncounted = false;
     if (!s.indirect_stale) refresh_indirect(s);
+    s.phase = SolvePhase::solve;
 }
 
-// The rows that are traced are given to the system.
+// Of a dimmer or a spectrum: what is known of each luminaire alone, added up; false where not enough is.
+bool add_up_luminaires(State& s) {
+    s.light_bases.keep_for(room_for_bases(s), s.material_rho);
+    auto known = s.light_bases.sum(s.luminaire_exitance);
+    if (!known) return false;
+    s.gathered_direct = std::move(known->gathered);
+    s.system.set_sources(rho_of_receivers(s), s.gathered_direct, std::move(known->radiosity),
+                         std::move(known->arriving));
+    s.indirect_stale = false;
+    begin_sweeps(s);
+    return true;
+}
+
+// Planning wavelengths takes as long as several frames: paints that are dragged ask for them when the hand rests.
+// False: they are not there yet, or it starts anew in others.
+bool take_choice(State& s) {
+    if (!s.choosing.valid()) plan_channels(s);
+    if (!is_ready(s.choosing)) return false;
+    const SameChannels same = take_channels(s, false);
+    if (same.channels && same.sources) return true;
+    if (!same.channels) s.solving = false;
+    start_gathering(s, false);
+    return false;
+}
+
+// New sources, paints or rays: one reflection of direct light is gathered anew, then the system holds them.
 void take_rows(State& s, const std::atomic<bool>& cancel) {
-    if (!prepare_rows(s, cancel)) return;
+    if (!prepare_rows(s, cancel) || (s.choice_waits && !take_choice(s))) return;
     s.rows_wait = false;
-    gather_direct(s);
-    s.phase = SolvePhase::solve;
+    State::RowsInTheMaking rows = *std::exchange(s.rows_in_the_making, std::nullopt);
+    if (!s.solving) s.indirect_irradiance = {};         // of other channels, or another solver's
+    s.indirect_stale = s.indirect_irradiance.count > 0; // a picture that is there stays until the next step
+    s.gathered_direct = std::move(rows.gathered);
+    if (has_other_rows(s)) set_other_rows(s, std::move(rows));
+    s.system.set_sources(rho_of_receivers(s), s.gathered_direct);
+    begin_sweeps(s);
 }
 
 std::uint32_t most_passes(const State& s) {
@@ -260,6 +265,7 @@ bool plan_passes(State& s) {
 } // namespace
 
 void start_gathering(State& s, bool same_sources) {
+    const bool has_sources = same_sources && !s.rows_wait;
     s.only_probes_left = s.rows_wait = false;
     s.rows_in_the_making.reset();
     if (std::exchange(s.pass_open, false)) s.passes.pop_back(); // half traced: again
@@ -271,12 +277,20 @@ void start_gathering(State& s, bool same_sources) {
         return;
     }
     s.status.sweeps = 0;
-    if (!same_sources || has_other_rows(s)) gather_direct(s);
     s.phase = SolvePhase::solve;
+    if (has_other_rows(s)) {
+        const std::atomic<bool> never{false};
+        s.rows_wait = true;
+        while (s.rows_wait) take_rows(s, never);
+    } else if (!has_sources && !add_up_luminaires(s)) {
+        // Gathered in steps. What is shown meanwhile is the light there was, as the new paints reflect it.
+        s.rows_wait = true;
+        s.phase = SolvePhase::transport;
+    }
 }
 
 void trace_gathering_rows(State& s, const std::atomic<bool>& cancel) {
-    s.status.stage = SolveStage::gathering_rays;
+    s.status.stage = s.rows_wait ? SolveStage::solving : SolveStage::gathering_rays;
     if (s.rows_wait) return take_rows(s, cancel);
     if (!s.pass_open) {
         // Rays of the level before end elsewhere now, and are not traced again; on this one they are kept in turn, if

@@ -105,6 +105,8 @@ struct Solution::State {
     std::optional<Wavelengths> trichromatic;        // when the two are compared
     WavelengthsChoice choice;
     std::future<WavelengthsChoice> choosing;             // valid: on its way, on a thread of its own
+    bool choice_waits = false;                           // it is of other paints, and to be made anew before sweeps
+    std::shared_ptr<const Scene> scene_of_channels;      // that the following are of
     std::vector<std::vector<double>> material_rho;       // per material
     std::vector<std::vector<double>> luminaire_exitance; // per luminaire, W m^-2 nm^-1
     std::vector<std::optional<LuminaireIndex>> object_luminaire;
@@ -112,7 +114,8 @@ struct Solution::State {
     GatherSystem system;
     std::uint64_t rows_of_system = 0;    // passes_traced when it was given its rows
     std::uint64_t rows_of_smoothing = 0; // and when the smoothing was made
-    // What new rows make of the light there is, in slices, before the system is given them. An edit drops it.
+    // What new rows, or the rows of new sources, make of the light there is, in slices, before the system is given
+    // them. An edit drops it.
     struct RowsInTheMaking {
         ChannelField reflected, gathered;
         std::optional<ChannelField> guess; // where there are more receivers than before
@@ -120,7 +123,7 @@ struct Solution::State {
         std::uint32_t cursor = 0, arriving_cursor = 0;
     };
     std::optional<RowsInTheMaking> rows_in_the_making;
-    bool rows_wait = false;       // all are traced, and not yet given to the system
+    bool rows_wait = false;       // rows or sources are not yet given to the system
     bool sweep_uncounted = false; // of a sweep that is through not all is shown
     bool indirect_stale = false;  // indirect_irradiance is of the sweep before
     LightBases light_bases;       // of the rows of `system`

@@ -46,7 +46,9 @@ struct SameChannels {
 };
 void plan_channels(Solution::State& s); // begins to, while the mesh is made
 void make_channels(Solution::State& s);
-SameChannels take_channels(Solution::State& s);                   // anew; what stayed the same
+// Anew; what stayed the same. may_wait: whether other paints ask for other wavelengths can be asked later
+// (choice_waits).
+SameChannels take_channels(Solution::State& s, bool may_wait);
 double luminous(const Solution::State& s, const float* channels); // Y of channels
 double mean_luminous_reflectance(const Solution::State& s);       // over the area of the scene
 // Of each channel in "the largest unshot flux": luminous, and a little of all wavelengths so that blue is not
