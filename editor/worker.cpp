@@ -206,10 +206,9 @@ void Worker::State::run() {
         note_history();
         unpublished = true;
         const double since = std::chrono::duration<double>(Clock::now() - last_publication).count();
-        // A large field is shown less often, so that showing takes a small share of the time; but an edit, however soon
-        // the next one comes, for the hand that drags is led by what it sees.
-        const double interval =
-            edit_unshown ? publication_seconds : std::max(params.publish_interval, 6 * publication_seconds);
+        // A large field is shown less often, so that showing takes a small share of the time; but an edit at once,
+        // however soon the next one comes: the hand that drags is led by what it sees.
+        const double interval = edit_unshown ? 0 : std::max(params.publish_interval, 6 * publication_seconds);
         if ((edit_unshown || !cancel.load()) && solution->mesh() && (single || since > interval)) {
             publish(is_paused);
             unpublished = false;
