@@ -15,7 +15,7 @@ namespace lueur {
 
 struct WorkerParams {
     int threads = 0;                    // 0: one fewer than the machine has, at least one (the window keeps one)
-    double publish_interval = 1.0 / 30; // seconds between snapshots while solving
+    double publish_interval = 1.0 / 30; // seconds between snapshots while solving; an edit is shown at once
     std::function<void()> wake;         // called after each publication, from the worker's thread (glfwPostEmptyEvent)
 };
 

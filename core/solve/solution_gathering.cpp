@@ -150,7 +150,7 @@ bool has_other_rows(const State& s) {
     return !s.solving || s.rows_of_system != s.passes_traced;
 }
 
-// What takes long of giving the system other rows, slice by slice; true when the rest is left.
+// What takes long of giving the system other rows or sources, slice by slice; true when the rest is left.
 bool prepare_rows(State& s, const std::atomic<bool>& cancel) {
     TimeSlice slice(cancel);
     renew_smoothing(s);
